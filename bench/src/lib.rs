@@ -1,0 +1,1 @@
+//! Benchmarks of lumley, one file each in `benches/`.

@@ -1,0 +1,11 @@
+//! The ground under the models: grids, meshes, reference elements, quadrature, fields, and the
+//! transfer of a field from a moving mesh to a fixed grid.
+//!
+//! This crate knows no equation, no body dynamics, no POD and no file.
+
+mod grid;
+
+pub use grid::UniformGrid;
+
+/// A point of the plane, in m. On a line the second coordinate is zero.
+pub type Point = [f64; 2];

@@ -1,0 +1,70 @@
+use faer::{Mat, MatMut};
+use std::io;
+use std::ops::Range;
+
+/// Where snapshots come from: memory, disk, or the rows that one machine owns.
+///
+/// The snapshot matrix X has one column per snapshot, n rows and M columns.
+pub trait SnapshotSource: Sync {
+    /// Length n of a snapshot.
+    fn dim(&self) -> usize;
+    /// Times of the M snapshots, in s.
+    fn times(&self) -> &[f64];
+    /// Reads `X[rows, cols]` into `out`, which has that shape.
+    ///
+    /// # Errors
+    /// The failure of the medium, or damaged data, named.
+    fn block(&self, rows: Range<usize>, cols: Range<usize>, out: MatMut<'_, f64>)
+    -> io::Result<()>;
+}
+
+/// Snapshots held in memory.
+///
+/// ```
+/// use lumley_pod::{MemorySnapshots, SnapshotSource};
+/// let x = faer::mat![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]];
+/// let snapshots = MemorySnapshots::new(x, vec![0.0, 0.1]);
+/// assert_eq!((snapshots.dim(), snapshots.times().len()), (3, 2));
+/// ```
+#[derive(Debug, Clone)]
+pub struct MemorySnapshots {
+    x: Mat<f64>,
+    times: Vec<f64>,
+}
+
+impl MemorySnapshots {
+    /// The columns of `x` as snapshots at `times`, in s.
+    ///
+    /// # Panics
+    /// If there is not one time for each column.
+    pub fn new(x: Mat<f64>, times: Vec<f64>) -> Self {
+        assert_eq!(x.ncols(), times.len(), "one time for each snapshot");
+        Self { x, times }
+    }
+
+    /// The snapshot matrix, n x M.
+    pub fn matrix(&self) -> faer::MatRef<'_, f64> {
+        self.x.as_ref()
+    }
+}
+
+impl SnapshotSource for MemorySnapshots {
+    fn dim(&self) -> usize {
+        self.x.nrows()
+    }
+
+    fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    fn block(
+        &self,
+        rows: Range<usize>,
+        cols: Range<usize>,
+        mut out: MatMut<'_, f64>,
+    ) -> io::Result<()> {
+        let part = self.x.submatrix(rows.start, cols.start, rows.len(), cols.len());
+        out.copy_from(part);
+        Ok(())
+    }
+}
