@@ -79,4 +79,130 @@ impl UniformGrid {
             }
         })
     }
+
+    /// Weights of the trapezoid rule at the nodes, in m or m²; their sum is the length or area.
+    pub fn trapezoid_weights(&self) -> Vec<f64> {
+        let [line, column] = [0, 1].map(|d| {
+            let end = |k| if k == 0 || k == self.nodes[d] - 1 { 0.5 } else { 1.0 };
+            match self.nodes[d] {
+                1 => vec![1.0],
+                n => (0..n).map(|k| end(k) * self.spacing()[d]).collect(),
+            }
+        });
+        column.iter().flat_map(|wy| line.iter().map(move |wx| wx * wy)).collect()
+    }
+
+    /// The consistent mass matrix `∫ φ_i φ_j` of linear elements on an interval, bilinear ones on a
+    /// rectangle: its non-zero entries `(i, j, value)` in m or m², row after row, columns increasing.
+    ///
+    /// ```
+    /// use lumley_fem::UniformGrid;
+    /// let mass = UniformGrid::line(0.0, 1.0, 3).mass_matrix();
+    /// assert_eq!(mass[0], (0, 0, 1.0 / 6.0));
+    /// assert_eq!(mass.len(), 7);
+    /// ```
+    pub fn mass_matrix(&self) -> Vec<(usize, usize, f64)> {
+        let [line, column] = [0, 1].map(|d| line_mass(self.nodes[d], self.spacing()[d]));
+        let mut entries = Vec::with_capacity(9 * self.len());
+        for (jy, ky) in column.iter().enumerate() {
+            for (jx, kx) in line.iter().enumerate() {
+                for &(iy, wy) in ky {
+                    for &(ix, wx) in kx {
+                        let [row, col] = [(jx, jy), (ix, iy)].map(|(x, y)| y * self.nodes[0] + x);
+                        entries.push((row, col, wx * wy));
+                    }
+                }
+            }
+        }
+        entries
+    }
+}
+
+/// Rows of the mass matrix of linear elements of length `h`: the columns and their entries. A
+/// single node, the missing direction of an interval, has mass one.
+fn line_mass(nodes: usize, h: f64) -> Vec<Vec<(usize, f64)>> {
+    if nodes == 1 {
+        return vec![vec![(0, 1.0)]];
+    }
+    let row = |k: usize| {
+        let neighbours = k.saturating_sub(1)..(k + 2).min(nodes);
+        let cells = if k == 0 || k == nodes - 1 { 1.0 } else { 2.0 };
+        neighbours.map(|j| (j, if j == k { cells * h / 3.0 } else { h / 6.0 })).collect()
+    };
+    (0..nodes).map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn grids() -> [UniformGrid; 2] {
+        [UniformGrid::line(-0.2, 1.1, 14), UniformGrid::rectangle([0.5, -1.0], [2.0, 0.25], [5, 8])]
+    }
+
+    fn measure(grid: &UniformGrid) -> f64 {
+        let (a, b) = grid.bounds();
+        (0..grid.dimension()).map(|d| b[d] - a[d]).product()
+    }
+
+    #[test]
+    fn nodes_fill_the_bounds() {
+        for grid in grids() {
+            let (a, b) = grid.bounds();
+            assert_eq!(grid.point(0), a);
+            assert_eq!(grid.point(grid.len() - 1), b);
+            let step = grid.spacing()[0];
+            assert!((grid.point(1)[0] - a[0] - step).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn trapezoid_integrates_linear_functions() {
+        for grid in grids() {
+            let weights = grid.trapezoid_weights();
+            let (a, b) = grid.bounds();
+            assert_eq!(weights.len(), grid.len());
+            for d in 0..grid.dimension() {
+                let sum: f64 = weights.iter().enumerate().map(|(k, w)| w * grid.point(k)[d]).sum();
+                let exact = measure(&grid) * 0.5 * (a[d] + b[d]);
+                assert!((sum - exact).abs() < 1e-14, "{sum} {exact}");
+            }
+        }
+    }
+
+    /// `fᵀ M g = ∫ f g` for linear f and g, and M is symmetric.
+    #[test]
+    fn mass_matrix_integrates_products_of_linear_functions() {
+        let rule = crate::quadrature::gauss_legendre(3);
+        for grid in grids() {
+            let mass = grid.mass_matrix();
+            let (f, g) = (|p: Point| 1.0 + 2.0 * p[0] - p[1], |p: Point| 0.3 - p[0] + 0.7 * p[1]);
+            let product: f64 =
+                mass.iter().map(|&(i, j, m)| f(grid.point(i)) * m * g(grid.point(j))).sum();
+            let (a, b) = grid.bounds();
+            let at = |s: f64, t: f64| [a[0] + s * (b[0] - a[0]), a[1] + t * (b[1] - a[1])];
+            let mut exact = 0.0;
+            for (s, ws) in &rule {
+                for (t, wt) in &rule {
+                    exact += measure(&grid) * ws * wt * f(at(*s, *t)) * g(at(*s, *t));
+                }
+            }
+            assert!((product - exact).abs() < 1e-13, "{product} {exact}");
+            for &(i, j, m) in &mass {
+                assert!(mass.contains(&(j, i, m)), "no mirror of entry ({i}, {j})");
+            }
+        }
+    }
+
+    #[test]
+    fn mass_matrix_rows_sum_to_the_trapezoid_weights_in_order() {
+        for grid in grids() {
+            let mass = grid.mass_matrix();
+            assert!(mass.windows(2).all(|w| (w[0].0, w[0].1) < (w[1].0, w[1].1)));
+            for (k, weight) in grid.trapezoid_weights().into_iter().enumerate() {
+                let row: f64 = mass.iter().filter(|e| e.0 == k).map(|e| e.2).sum();
+                assert!((row - weight).abs() < 1e-15, "row {k}: {row} {weight}");
+            }
+        }
+    }
 }

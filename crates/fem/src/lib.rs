@@ -3,9 +3,18 @@
 //!
 //! This crate knows no equation, no body dynamics, no POD and no file.
 
+mod characteristic;
+pub mod element;
+mod field;
 mod grid;
+mod mesh;
+pub mod quadrature;
+pub mod transfer;
 
+pub use characteristic::characteristic;
+pub use field::MovingField;
 pub use grid::UniformGrid;
+pub use mesh::LineMesh;
 
 /// A point of the plane, in m. On a line the second coordinate is zero.
 pub type Point = [f64; 2];

@@ -1,1 +1,13 @@
-//! skeleton
+//! Full-order models of flows with moving bodies.
+//!
+//! The [`Piston`] is the Burgers equation coupled with a block on a spring, paper §4. This crate
+//! knows neither POD nor reduced models, and writes nothing to files or to the terminal.
+
+pub mod linear;
+mod piston;
+mod time_scheme;
+
+pub use piston::{
+    CheckpointError, Forcing, InitialFlow, Piston, PistonError, PistonParameters, PistonStep,
+};
+pub use time_scheme::TimeScheme;

@@ -1,2 +1,7 @@
-//! s
-fn main() {}
+//! The command `lumley`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    lumley::command::main()
+}

@@ -1,1 +1,13 @@
-//! To be written.
+//! Files of other programs: NumPy arrays ([`npy`], [`npz`]) and tables ([`csv`]), read strictly and
+//! written whole or not at all ([`atomic`]).
+//!
+//! A size that a file claims is checked against the file before anything is allocated for it.
+
+pub mod atomic;
+pub mod csv;
+mod error;
+pub mod npy;
+pub mod npz;
+mod region;
+
+pub use error::FormatError;

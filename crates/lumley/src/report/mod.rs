@@ -1,1 +1,27 @@
-//! To be written.
+//! Reports: one self-contained page for a run, and its figures.
+//!
+//! [`PistonReport`] and [`PodReport`] take plain vectors and give a [`Report`]: strings, which the
+//! caller writes where it wants. The page needs no network, no script to be complete, and no file
+//! beside it. [`figure`] and [`html`] are the parts that reports are made of.
+
+#[cfg(test)]
+mod checks;
+mod energy;
+pub mod figure;
+pub mod html;
+mod markup;
+mod number;
+mod piston;
+mod pod;
+mod provenance;
+#[cfg(test)]
+mod wellformed;
+
+pub use html::Report;
+pub use markup::{escape, literal};
+pub use piston::{
+    FomVariant, Frame, ModeSet, Outcome, Parameters, PistonReport, RomResults, RomRun, Trajectory,
+    TransferError,
+};
+pub use pod::{FieldGrid, PodReport};
+pub use provenance::Provenance;

@@ -1,0 +1,175 @@
+use super::error::{CaseError, Place};
+use super::raw::CaseFile;
+use super::suggest::nearest;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use toml::de::{DeTable, DeValue};
+use toml::{Table, Value};
+
+/// A case file as text, with what the command line lays over it.
+///
+/// Values come, in this order, from `--set`, from the `[quick]` table when asked for, and from the file
+/// itself; [`place`](Self::place) tells which, so that an error can point at the line to mend.
+#[derive(Debug)]
+pub(super) struct Document {
+    path: PathBuf,
+    text: String,
+    quick: bool,
+    settings: Vec<(String, Value)>,
+}
+
+impl Document {
+    pub(super) fn new(
+        path: &Path,
+        text: String,
+        quick: bool,
+        settings: &[String],
+    ) -> Result<Self, CaseError> {
+        let settings = settings.iter().map(|s| parse_setting(s)).collect::<Result<_, _>>()?;
+        Ok(Self { path: path.to_owned(), text, quick, settings })
+    }
+
+    /// The file with all overrides applied, keys checked, values not yet.
+    pub(super) fn case_file(&self) -> Result<CaseFile, CaseError> {
+        let mut table: Table = toml::from_str(&self.text).map_err(|e| self.syntax(&e))?;
+        let quick = match table.remove("quick") {
+            Some(Value::Table(quick)) if self.quick => Some(quick),
+            Some(Value::Table(_)) | None => None,
+            Some(other) => return Err(self.quick_not_a_table(&other)),
+        };
+        if quick.is_none() && self.settings.is_empty() {
+            return toml::from_str(&self.text).map_err(|e| self.syntax(&e));
+        }
+        if let Some(quick) = quick {
+            merge(&mut table, quick);
+        }
+        for (key, value) in &self.settings {
+            set(&mut table, key, value.clone())?;
+        }
+        CaseFile::deserialize(Value::Table(table)).map_err(|e| self.overridden(&e))
+    }
+
+    /// Where the value of `key`, such as `piston.mass`, was written.
+    pub(super) fn place(&self, key: &str) -> Place {
+        if let Some((set, value)) = self.settings.iter().rev().find(|(k, _)| covers(k, key)) {
+            return Place::Setting(format!("{set}={value}"));
+        }
+        let quick = self.quick.then(|| self.line(&format!("quick.{key}"))).flatten();
+        match quick.or_else(|| self.line(key)) {
+            Some(line) => Place::Line(self.path.clone(), line),
+            None => Place::Default(self.path.clone()),
+        }
+    }
+
+    /// The line of `key`, or of the value that holds it; `rom.models.2.sigma` goes into a list.
+    fn line(&self, key: &str) -> Option<usize> {
+        let root = DeTable::parse(&self.text).ok()?;
+        let (first, rest) = key.split_once('.').map_or((key, None), |(f, r)| (f, Some(r)));
+        let mut value = root.get_ref().get(first)?;
+        for part in rest.into_iter().flat_map(|r| r.split('.')) {
+            value = match value.get_ref() {
+                DeValue::Table(table) => table.get(part)?,
+                DeValue::Array(list) => match part.parse().ok().and_then(|k: usize| list.get(k)) {
+                    Some(entry) => entry,
+                    None => break,
+                },
+                _ => break,
+            };
+        }
+        Some(self.line_at(value.span().start))
+    }
+
+    fn line_at(&self, offset: usize) -> usize {
+        1 + self.text[..offset].matches('\n').count()
+    }
+
+    fn syntax(&self, error: &toml::de::Error) -> CaseError {
+        let line = error.span().map(|s| self.line_at(s.start));
+        CaseError::Syntax {
+            path: self.path.clone(),
+            line,
+            message: error.to_string().trim_end().to_owned(),
+            help: help(error.message()),
+        }
+    }
+
+    fn overridden(&self, error: &toml::de::Error) -> CaseError {
+        // The file may be wrong by itself: then its own line is the better answer.
+        if !self.quick {
+            if let Err(own) = toml::from_str::<CaseFile>(&self.text) {
+                if own.message() == error.message() {
+                    return self.syntax(&own);
+                }
+            }
+        }
+        let settings = self.settings.iter().map(|(k, v)| format!("--set {k}={v}"));
+        let quick = self.quick.then(|| "[quick]".to_owned());
+        CaseError::Override {
+            path: self.path.clone(),
+            overrides: quick.into_iter().chain(settings).collect::<Vec<_>>().join(" "),
+            message: error.to_string().trim_end().to_owned(),
+            help: help(error.message()),
+        }
+    }
+
+    fn quick_not_a_table(&self, value: &Value) -> CaseError {
+        CaseError::Value {
+            place: self.place("quick"),
+            key: "quick".into(),
+            value: value.to_string(),
+            expected: "a table of overrides, such as [quick] with mesh.cells = 100".into(),
+        }
+    }
+}
+
+/// Whether a setting of `set` decides the value of `key`.
+fn covers(set: &str, key: &str) -> bool {
+    key.strip_prefix(set).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+}
+
+fn parse_setting(text: &str) -> Result<(String, Value), CaseError> {
+    let bad = || CaseError::Setting { text: text.to_owned() };
+    let (key, value) = text.split_once('=').ok_or_else(bad)?;
+    let key = key.trim();
+    if key.is_empty() || key.split('.').any(|part| part.trim().is_empty()) {
+        return Err(bad());
+    }
+    let value = value.trim();
+    // Whatever is not a TOML value is meant as a word: --set time.scheme=bdf2.
+    let parsed = toml::from_str::<Table>(&format!("v = {value}")).ok().and_then(|mut t| t.remove("v"));
+    Ok((key.to_owned(), parsed.unwrap_or_else(|| Value::String(value.to_owned()))))
+}
+
+fn merge(into: &mut Table, from: Table) {
+    for (key, value) in from {
+        match (into.get_mut(&key), value) {
+            (Some(Value::Table(old)), Value::Table(new)) => merge(old, new),
+            (_, value) => {
+                into.insert(key, value);
+            }
+        }
+    }
+}
+
+fn set(table: &mut Table, key: &str, value: Value) -> Result<(), CaseError> {
+    let (path, last) = key.rsplit_once('.').map_or((None, key), |(p, l)| (Some(p), l));
+    let mut table = table;
+    for part in path.into_iter().flat_map(|p| p.split('.')) {
+        let entry = table.entry(part.to_owned()).or_insert_with(|| Value::Table(Table::new()));
+        table = entry.as_table_mut().ok_or_else(|| CaseError::Setting { text: key.to_owned() })?;
+    }
+    table.insert(last.to_owned(), value);
+    Ok(())
+}
+
+/// "did you mean", read from serde's own list of what it expected.
+fn help(message: &str) -> String {
+    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
+    match quoted.split_first() {
+        Some((found, known)) if message.starts_with("unknown") => match nearest(found, known) {
+            Some(word) => format!("did you mean `{word}`?"),
+            None => "see `lumley cases piston` for every key".into(),
+        },
+        _ => "see `lumley cases piston` for a case file that works".into(),
+    }
+}

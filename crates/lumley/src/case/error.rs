@@ -1,0 +1,90 @@
+use std::fmt;
+use std::path::PathBuf;
+
+/// Where a value of a case was written.
+///
+/// ```
+/// use lumley::case::Place;
+/// let place = Place::Line("case.toml".into(), 12);
+/// assert_eq!(place.to_string(), "case.toml, line 12");
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// A line of the case file, counted from 1.
+    Line(PathBuf, usize),
+    /// The command line: `--set key=value`.
+    Setting(String),
+    /// Nowhere: the default stands, or the value follows from others in this file.
+    Default(PathBuf),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(path, line) => write!(f, "{}, line {line}", path.display()),
+            Self::Setting(text) => write!(f, "--set {text}"),
+            Self::Default(path) => write!(f, "{} (a default, not written there)", path.display()),
+        }
+    }
+}
+
+/// Why a case file was refused.
+///
+/// ```
+/// use lumley::case::{Case, CaseError};
+/// let error = Case::load("no/such/case.toml".as_ref(), false, &[]).unwrap_err();
+/// assert!(matches!(error, CaseError::Read { .. }));
+/// ```
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// The file cannot be read.
+    #[error("cannot read the case file {}: {source}\n  help: `lumley cases` lists the cases that come with lumley", path.display())]
+    Read {
+        /// The case file.
+        path: PathBuf,
+        /// The system's answer.
+        source: std::io::Error,
+    },
+    /// Not TOML, an unknown key or a value of the wrong type.
+    #[error("{}{}: {message}\n  help: {help}", path.display(), line.map_or(String::new(), |l| format!(", line {l}")))]
+    Syntax {
+        /// The case file.
+        path: PathBuf,
+        /// Line, counted from 1.
+        line: Option<usize>,
+        /// What the parser found and expected, with the line itself.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// The case file is right by itself; what is laid over it is not.
+    #[error("{} with {overrides}: {message}\n  help: {help}", path.display())]
+    Override {
+        /// The case file.
+        path: PathBuf,
+        /// The overrides.
+        overrides: String,
+        /// What the parser found and expected.
+        message: String,
+        /// What to do.
+        help: String,
+    },
+    /// `--set` without `key=value`.
+    #[error("--set {text}: expected KEY=VALUE with a key such as piston.mass\n  help: write --set piston.mass=0.5")]
+    Setting {
+        /// What was given.
+        text: String,
+    },
+    /// A value that no computation can use.
+    #[error("{place}: {key} = {value}: expected {expected}")]
+    Value {
+        /// Where it was written.
+        place: Place,
+        /// The key, with its tables.
+        key: String,
+        /// The value found.
+        value: String,
+        /// What was expected, and what to do.
+        expected: String,
+    },
+}

@@ -1,0 +1,28 @@
+use super::say;
+use crate::Error;
+use crate::cases::{CASES, find};
+use clap::Args;
+
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// The case to print, so that `lumley cases piston > case.toml` gives a start
+    name: Option<String>,
+}
+
+impl Arguments {
+    pub(super) fn execute(&self) -> Result<(), Error> {
+        let Some(name) = &self.name else {
+            for case in CASES {
+                say(&format!("{:<12} {}", case.name, case.about));
+            }
+            return Ok(());
+        };
+        let case = find(name).ok_or_else(|| Error::Argument {
+            argument: "cases",
+            value: name.clone(),
+            expected: CASES.iter().map(|case| case.name).collect::<Vec<_>>().join(", "),
+        })?;
+        say(case.text.trim_end());
+        Ok(())
+    }
+}

@@ -1,0 +1,97 @@
+//! The command line: arguments in, one exit code out. Results on stdout, everything else on stderr.
+
+mod cases;
+mod check;
+mod info;
+mod pod;
+mod report;
+mod rom;
+mod run;
+mod verify;
+
+use crate::Error;
+use crate::directory::Existing;
+use crate::progress::Progress;
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Proper orthogonal decomposition and reduced-order models of flows with moving bodies.
+#[derive(Parser)]
+#[command(name = "lumley", version, max_term_width = 100)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Run a case: full-order model, record, POD, reduced models, report
+    Run(run::Arguments),
+    /// Say what a case would do (unknowns, memory, time, disk) and run nothing
+    Check(check::Arguments),
+    /// POD of snapshots alone: an NPY file or the record of a run
+    Pod(pod::Arguments),
+    /// Run the reduced models of a run again, with other parameters or for a longer time
+    Rom(rom::Arguments),
+    /// Write the report of a run again
+    Report(report::Arguments),
+    /// Tell what a file or a run directory holds
+    Info(info::Arguments),
+    /// List the cases that come with lumley, or print one
+    Cases(cases::Arguments),
+    /// Compute the reference numbers and compare: exit code 1 when one is missed
+    Verify(verify::Arguments),
+}
+
+/// Where a command writes, and what it may replace.
+#[derive(Args)]
+struct Output {
+    /// Directory to write; an existing one is an error
+    #[arg(short, long, value_name = "DIR")]
+    output: Option<PathBuf>,
+    /// Replace a run of lumley that stands there
+    #[arg(long)]
+    force: bool,
+    /// Print the summary as one JSON object on stdout
+    #[arg(long)]
+    json: bool,
+}
+
+impl Output {
+    fn existing(&self, resume: bool) -> Existing {
+        Existing { replace: self.force, resume }
+    }
+}
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    match dispatch(cli.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn dispatch(command: Command) -> Result<(), Error> {
+    let mut progress = Progress::stderr();
+    match command {
+        Command::Run(arguments) => arguments.execute(&mut progress),
+        Command::Check(arguments) => arguments.execute(),
+        Command::Pod(arguments) => arguments.execute(&mut progress),
+        Command::Rom(arguments) => arguments.execute(&mut progress),
+        Command::Report(arguments) => arguments.execute(&mut progress),
+        Command::Info(arguments) => arguments.execute(),
+        Command::Cases(arguments) => arguments.execute(),
+        Command::Verify(arguments) => arguments.execute(&mut progress),
+    }
+}
+
+/// Prints a line of a command's result; a reader that went away is not an error.
+fn say(line: &str) {
+    use std::io::Write as _;
+    let _ = writeln!(std::io::stdout(), "{line}");
+}

@@ -1,0 +1,115 @@
+use super::{Output, say};
+use crate::Error;
+use crate::case::PodChoice;
+use crate::directory::default_target;
+use crate::format::npy::SnapshotLayout;
+use crate::progress::Progress;
+use crate::report::FieldGrid;
+use crate::run::{PodInput, Task, decompose_snapshots};
+use clap::{Args, ValueEnum};
+use lumley_pod::Truncation;
+use std::path::PathBuf;
+
+#[derive(Args)]
+pub(super) struct Arguments {
+    /// Snapshots: a matrix in an NPY file, a run directory or its record
+    #[arg(value_name = "X.npy|RECORD")]
+    snapshots_file: PathBuf,
+    /// Weights of the inner product, one for each unknown (or each node)
+    #[arg(long, value_name = "W.npy")]
+    weights: Option<PathBuf>,
+    /// Whether a row of the file is a snapshot or a column is
+    #[arg(long, value_enum, default_value = "rows")]
+    snapshots: Layout,
+    /// Times of the snapshots, in s
+    #[arg(long, value_name = "T.npy")]
+    times: Option<PathBuf>,
+    /// Nodes of the uniform grid that the unknowns stand for, to draw the modes
+    #[arg(long, value_name = "NX[,NY[,NZ]]", value_delimiter = ',', num_args = 1..=3)]
+    grid: Vec<usize>,
+    /// Components at each node, one after the other in a snapshot
+    #[arg(long, value_name = "K", default_value_t = 1)]
+    components: usize,
+    /// Number of modes
+    #[arg(long, value_name = "N", conflicts_with = "energy")]
+    modes: Option<usize>,
+    /// Share of the energy that the modes hold; 0.9999 unless given
+    #[arg(long, value_name = "F")]
+    energy: Option<f64>,
+    /// Algorithm
+    #[arg(long, default_value = "auto", value_parser = methods())]
+    method: String,
+    /// Subtract the mean over time
+    #[arg(long)]
+    center: bool,
+    /// Threads; by default all
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Layout {
+    Rows,
+    Columns,
+}
+
+fn methods() -> clap::builder::PossibleValuesParser {
+    clap::builder::PossibleValuesParser::new(lumley_pod::ALGORITHMS.iter().map(|a| a.name))
+}
+
+impl Arguments {
+    pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
+        let input = PodInput {
+            path: self.snapshots_file.clone(),
+            weights: self.weights.clone(),
+            layout: match self.snapshots {
+                Layout::Rows => SnapshotLayout::Rows,
+                Layout::Columns => SnapshotLayout::Columns,
+            },
+            times: self.times.clone(),
+            grid: self.field_grid(),
+            components: self.components,
+            choice: self.choice()?,
+        };
+        let stem = self.snapshots_file.file_stem().unwrap_or_default();
+        let name = format!("{}-pod", stem.to_string_lossy());
+        let named = self.output.output.clone();
+        let target = named.unwrap_or_else(|| default_target(&name, false));
+        let mut task = Task::new(target, self.output.existing(false));
+        task.threads = self.threads.map_or(task.threads, usize::from);
+        let (directory, summary) = decompose_snapshots(&input, &task, progress)?;
+        if self.output.json {
+            say(&summary.to_json());
+        } else {
+            let energy = summary.pod.cumulative_percent.last().copied().unwrap_or_default();
+            say(&format!("{} modes, {energy:.4} % of the energy", summary.pod.modes));
+            say(&format!("{}", directory.join("pod.npz").display()));
+            say(&format!("{}", directory.join("report.html").display()));
+        }
+        Ok(())
+    }
+
+    fn choice(&self) -> Result<PodChoice, Error> {
+        let refuse = |argument, value: String, expected: &str| {
+            Err(Error::Argument { argument, value, expected: expected.into() })
+        };
+        let truncation = match (self.modes, self.energy) {
+            (Some(0), _) => return refuse("--modes", "0".into(), "at least 1"),
+            (Some(modes), _) => Truncation::Modes(modes),
+            (None, Some(share)) if !(share > 0.0 && share <= 1.0) => {
+                let expected = "a share of the energy above 0 and at most 1, such as 0.9999";
+                return refuse("--energy", share.to_string(), expected);
+            }
+            (None, share) => Truncation::Energy(share.unwrap_or(0.9999)),
+        };
+        Ok(PodChoice { method: self.method.clone(), truncation, center: self.center })
+    }
+
+    fn field_grid(&self) -> Option<FieldGrid> {
+        let mut nodes = [1; 3];
+        nodes.iter_mut().zip(&self.grid).for_each(|(to, n)| *to = *n);
+        (!self.grid.is_empty()).then_some(FieldGrid { nodes, components: self.components })
+    }
+}

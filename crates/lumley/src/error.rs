@@ -1,0 +1,116 @@
+use crate::case::CaseError;
+use crate::directory::DirectoryError;
+use crate::format::FormatError;
+use crate::model::StepError;
+use crate::record::RecordError;
+use lumley_fom::PistonError;
+use lumley_pod::{InnerProductError, PodError};
+use lumley_rom::ReducedError;
+use std::path::{Path, PathBuf};
+
+/// Everything that can end a command, with what to do about it.
+///
+/// ```
+/// use lumley::Error;
+/// let error = Error::NothingToDo { what: "no reduced models in this case" };
+/// assert_eq!(error.exit_code(), 2);
+/// ```
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The case file is wrong.
+    #[error(transparent)]
+    Case(#[from] CaseError),
+    /// The run directory cannot be used.
+    #[error(transparent)]
+    Directory(#[from] DirectoryError),
+    /// A file is wrong.
+    #[error(transparent)]
+    Format(#[from] FormatError),
+    /// The record is wrong.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// A model failed.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The decomposition failed.
+    #[error("{}: {source}", path.display())]
+    Pod {
+        /// The snapshots.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: PodError,
+    },
+    /// The inner product cannot be used.
+    #[error("{}: {source}", path.display())]
+    Weights {
+        /// The file of the weights.
+        path: PathBuf,
+        /// What is wrong with them.
+        source: InnerProductError,
+    },
+    /// The full-order model does not accept the case.
+    #[error(transparent)]
+    Piston(#[from] PistonError),
+    /// A reduced model cannot be built.
+    #[error(transparent)]
+    Reduced(#[from] ReducedError),
+    /// The run that is to go on was begun with another case.
+    #[error("{}: the unfinished run was begun with another case\n  help: begin again with --force, or give the case it was begun with", path.display())]
+    OtherCase {
+        /// The unfinished run.
+        path: PathBuf,
+    },
+    /// The settings of `lumley rom` need another basis than the run has.
+    #[error("{}: its modes belong to its mesh, its grid, its domain_length and its projections\n  help: `lumley rom` changes the other keys of piston, time and rom; for these make a new run with `lumley run`", path.display())]
+    OtherBasis {
+        /// The run.
+        path: PathBuf,
+    },
+    /// A file of a run directory is not what lumley wrote.
+    #[error("{}: {message}\n  help: the file was changed or damaged; make the run again with `lumley run --force`", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
+    /// The command has nothing to work on.
+    #[error("nothing to do: {what}")]
+    NothingToDo {
+        /// Why.
+        what: &'static str,
+    },
+    /// An argument is wrong.
+    #[error("{argument} {value}: expected {expected}")]
+    Argument {
+        /// The argument.
+        argument: &'static str,
+        /// What was given.
+        value: String,
+        /// What was expected.
+        expected: String,
+    },
+    /// A reference number was not reproduced.
+    #[error("{failed} of {rows} reference numbers are outside their tolerance")]
+    Verification {
+        /// Rows outside their tolerance.
+        failed: usize,
+        /// All rows.
+        rows: usize,
+    },
+}
+
+impl Error {
+    /// Puts the file in front of what is wrong with its snapshots.
+    pub(crate) fn pod<E: Into<PodError>>(path: &Path) -> impl Fn(E) -> Self + '_ {
+        move |source| Self::Pod { path: path.to_owned(), source: source.into() }
+    }
+
+    /// 1 where the computation failed, 2 where the input is wrong.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Step(_) | Self::Verification { .. } => 1,
+            _ => 2,
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! NumPy's format of one array: NPY versions 1 to 3.
+//!
+//! Source: NumPy enhancement proposal 1, "A simple file format for NumPy arrays".
+
+mod dtype;
+mod header;
+mod matrix;
+mod snapshots;
+mod write;
+
+pub use matrix::{NpyMatrix, read_vector};
+pub use snapshots::{NpySnapshots, SnapshotLayout};
+pub use write::{NpyWriter, write_matrix, write_vector};
+pub(in crate::format) use write::{file_size, push_columns};

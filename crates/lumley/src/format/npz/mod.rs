@@ -1,0 +1,11 @@
+//! NumPy's format of several named arrays: a ZIP archive of NPY files, not compressed.
+//!
+//! Source: PKWARE's APPNOTE 6.3.10 (ZIP and ZIP64); `numpy.savez` writes the same.
+
+mod crc32;
+mod directory;
+mod read;
+mod write;
+
+pub use read::NpzReader;
+pub use write::NpzWriter;

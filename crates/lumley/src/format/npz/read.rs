@@ -1,0 +1,97 @@
+use super::crc32::crc32;
+use super::directory::{self, Entry};
+use crate::format::FormatError;
+use crate::format::npy::NpyMatrix;
+use crate::format::region::Region;
+use faer::Mat;
+use std::path::Path;
+
+/// The named arrays of an NPZ archive.
+///
+/// ```
+/// use lumley::format::npz::{NpzReader, NpzWriter};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("pod.npz");
+/// let mut npz = NpzWriter::create(&path)?;
+/// npz.vector("eigenvalues", &[2.0, 1.0])?;
+/// npz.finish()?;
+/// let npz = NpzReader::open(&path)?;
+/// assert_eq!(npz.vector("eigenvalues")?, [2.0, 1.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct NpzReader {
+    file: Region,
+    entries: Vec<Entry>,
+    /// Where the arrays end and the directory begins.
+    end: u64,
+}
+
+impl NpzReader {
+    /// Opens the archive and reads its directory.
+    ///
+    /// # Errors
+    /// [`FormatError`]: not a ZIP archive, truncated, or damaged.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, FormatError> {
+        let file = Region::open(path.as_ref())?;
+        let (entries, end) = directory::read(&file)?;
+        Ok(Self { file, entries, end })
+    }
+
+    /// The names of the arrays, without the ending `.npy`.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().filter_map(|entry| entry.name.strip_suffix(".npy"))
+    }
+
+    /// The array `name`, to be read by blocks, after its checksum was found right.
+    ///
+    /// # Errors
+    /// [`FormatError`]: no such array, compressed, damaged, or not what [`NpyMatrix`] reads.
+    pub fn matrix(&self, name: &str) -> Result<NpyMatrix, FormatError> {
+        let entry = self.entries.iter().find(|e| e.name.strip_suffix(".npy") == Some(name));
+        let entry = entry.ok_or_else(|| FormatError::NoSuchArray {
+            path: self.file.path().to_owned(),
+            name: name.to_owned(),
+            available: self.names().map(str::to_owned).collect(),
+        })?;
+        if entry.method != 0 || entry.encrypted || entry.packed != entry.size {
+            let path = self.file.path().join(&entry.name);
+            return Err(FormatError::Compressed { path, method: entry.method });
+        }
+        let member = directory::member(&self.file, entry, self.end)?;
+        check(&member, entry.crc)?;
+        NpyMatrix::in_region(member, |_| 1)
+    }
+
+    /// The whole of the matrix `name`.
+    ///
+    /// # Errors
+    /// As for [`matrix`](Self::matrix).
+    pub fn read(&self, name: &str) -> Result<Mat<f64>, FormatError> {
+        self.matrix(name)?.read()
+    }
+
+    /// The whole of the vector `name`.
+    ///
+    /// # Errors
+    /// As for [`matrix`](Self::matrix), and for a matrix that is not a vector.
+    pub fn vector(&self, name: &str) -> Result<Vec<f64>, FormatError> {
+        self.matrix(name)?.read_as_vector()
+    }
+}
+
+fn check(member: &Region, stored: u32) -> Result<(), FormatError> {
+    let mut bytes = Vec::new();
+    let mut computed = 0;
+    for offset in (0..member.len()).step_by(1 << 20) {
+        let length = (member.len() - offset).min(1 << 20);
+        bytes.resize(usize::try_from(length).expect("at most 1 MiB"), 0);
+        member.read(offset, &mut bytes)?;
+        computed = crc32(computed, &bytes);
+    }
+    if computed == stored {
+        Ok(())
+    } else {
+        Err(FormatError::Checksum { path: member.path().to_owned(), stored, computed })
+    }
+}

@@ -1,0 +1,93 @@
+//! What a person sees of long work: a bar on a terminal, plain lines elsewhere, always on stderr.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::io::IsTerminal;
+use std::time::{Duration, Instant};
+
+/// Seconds between plain lines.
+const QUIET: Duration = Duration::from_secs(10);
+
+/// Progress of one stage.
+///
+/// ```
+/// use lumley::progress::Progress;
+/// let mut progress = Progress::silent();
+/// progress.begin("full-order model", 200);
+/// progress.advance(100, "X = 0.95 m");
+/// progress.end("200 snapshots");
+/// ```
+#[derive(Debug)]
+pub struct Progress {
+    loud: bool,
+    stage: String,
+    length: usize,
+    started: Instant,
+    spoken: Instant,
+    bar: ProgressBar,
+}
+
+impl Progress {
+    /// Progress on stderr.
+    pub fn stderr() -> Self {
+        Self::new(true)
+    }
+
+    /// No output at all.
+    pub fn silent() -> Self {
+        Self::new(false)
+    }
+
+    fn new(loud: bool) -> Self {
+        let now = Instant::now();
+        let (stage, bar) = (String::new(), ProgressBar::hidden());
+        Self { loud, stage, length: 0, started: now, spoken: now, bar }
+    }
+
+    /// A stage of `length` parts begins.
+    pub fn begin(&mut self, stage: &str, length: usize) {
+        self.stage = stage.to_owned();
+        self.length = length;
+        self.started = Instant::now();
+        self.spoken = self.started;
+        if self.loud && std::io::stderr().is_terminal() {
+            let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::stderr());
+            let style = "{prefix:>20} {wide_bar} {percent:>3} %  {per_sec}  {eta} left  {msg}";
+            if let Ok(style) = ProgressStyle::with_template(style) {
+                bar.set_style(style);
+            }
+            bar.set_prefix(stage.to_owned());
+            self.bar = bar;
+        }
+    }
+
+    /// `done` parts of the stage are done.
+    pub fn advance(&mut self, done: usize, message: &str) {
+        if !self.bar.is_hidden() {
+            self.bar.set_position(done as u64);
+            self.bar.set_message(message.to_owned());
+        } else if self.loud && self.spoken.elapsed() > QUIET {
+            self.spoken = Instant::now();
+            let passed = self.started.elapsed().as_secs_f64();
+            let left = passed / done.max(1) as f64 * self.length.saturating_sub(done) as f64;
+            eprintln!("{:>20}  {done} of {}  {left:.0} s left  {message}", self.stage, self.length);
+        }
+    }
+
+    /// The stage is done; `message` says what came of it. Returns its time, in s.
+    pub fn end(&mut self, message: &str) -> f64 {
+        let seconds = self.started.elapsed().as_secs_f64();
+        self.bar.finish_and_clear();
+        self.bar = ProgressBar::hidden();
+        if self.loud {
+            eprintln!("{:>20}  {message}  ({seconds:.2} s)", self.stage);
+        }
+        seconds
+    }
+
+    /// Something the person should know.
+    pub fn warn(&self, message: &str) {
+        if self.loud {
+            self.bar.suspend(|| eprintln!("{:>20}  {message}", "warning:"));
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! The report of a decomposition of snapshots that lumley did not make.
+
+mod draw;
+#[cfg(test)]
+mod tests;
+
+use super::energy::{self, Share};
+use super::figure::{Axis, Figure, LineChart, Series};
+use super::html::{Page, Report, Section, Table};
+use super::literal;
+use super::number::{count, fixed, scientific, significant};
+use super::provenance::Provenance;
+
+/// The uniform grid that the rows of modes stand for.
+///
+/// A mode lists its first component at all nodes, then the second, and so on; within a component
+/// the first direction runs fastest.
+///
+/// ```
+/// use lumley::report::FieldGrid;
+///
+/// let plane = FieldGrid { nodes: [211, 121, 1], components: 2 };
+/// assert_eq!(plane.len(), 2 * 211 * 121);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct FieldGrid {
+    /// Nodes in each direction, 1 where there is none.
+    pub nodes: [usize; 3],
+    /// Components of the field at a node.
+    pub components: usize,
+}
+
+impl FieldGrid {
+    /// Numbers in a mode.
+    pub fn len(&self) -> usize {
+        self.nodes.iter().fold(self.components, |n, &k| n.saturating_mul(k))
+    }
+
+    /// Whether there is no node.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// Everything that the report of a decomposition shows; what is missing is left out.
+///
+/// ```
+/// use lumley::report::PodReport;
+///
+/// let report = PodReport {
+///     source: "wake.npy".into(),
+///     snapshots: 3,
+///     unknowns: 2,
+///     eigenvalues: vec![2.0, 0.5],
+///     total_energy: 2.5,
+///     modes: vec![vec![1.0, 0.0], vec![0.0, 1.0]],
+///     ..PodReport::default()
+/// };
+/// assert!(report.render().page.contains("wake.npy"));
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PodReport {
+    /// What was read.
+    pub source: String,
+    /// M, the number of snapshots.
+    pub snapshots: usize,
+    /// n, the numbers in one.
+    pub unknowns: usize,
+    /// The inner product in words: "identity", "weights of w.npy".
+    pub inner_product: String,
+    /// Whether the mean over time was subtracted.
+    pub centred: bool,
+    /// The algorithm.
+    pub method: String,
+    /// Why this one.
+    pub reason: String,
+    /// λ of the modes found, largest first, in the square of the data's unit.
+    pub eigenvalues: Vec<f64>,
+    /// Sum of all λ, also of those not found.
+    pub total_energy: f64,
+    /// The modes kept.
+    pub modes: Vec<Vec<f64>>,
+    /// `a_n` at the snapshots, one row for each mode.
+    pub coefficients: Vec<Vec<f64>>,
+    /// Times of the snapshots; empty if not given.
+    pub times: Vec<f64>,
+    /// The grid to draw the modes on.
+    pub grid: Option<FieldGrid>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Where the numbers come from.
+    pub provenance: Provenance,
+}
+
+impl PodReport {
+    /// The page and its figures.
+    pub fn render(&self) -> Report {
+        let shares = energy::shares(&self.eigenvalues, self.total_energy);
+        let page =
+            Page::new(&literal(&self.source), "Proper orthogonal decomposition of snapshots.");
+        let page = self
+            .facts(&shares)
+            .into_iter()
+            .fold(page, |page, (value, meaning)| page.fact(&value, &meaning));
+        page.section(self.what())
+            .section(energies(&shares))
+            .section(self.coefficients())
+            .section(draw::section(self))
+            .section(self.provenance.section())
+            .render()
+    }
+
+    fn facts(&self, shares: &[Share]) -> Vec<(String, String)> {
+        let mut facts = vec![
+            (count(self.snapshots), "snapshots".into()),
+            (count(self.unknowns), "numbers in each".into()),
+            (count(self.modes.len()), "modes kept".into()),
+        ];
+        if let Some(last) = self.modes.len().checked_sub(1).and_then(|last| shares.get(last)) {
+            let error = significant(last.rms_percent, 2) + " %";
+            facts.push((error, "RMS error of the projection on them".into()));
+        }
+        facts
+    }
+
+    fn what(&self) -> Section {
+        let mean = if self.centred { "subtracted" } else { "not subtracted" };
+        let row = |name: &str, value: String| vec![name.to_string(), value];
+        let table = Table::new(&[]).labels(2).rows([
+            row("snapshots", literal(&self.source)),
+            row("size", format!("{} × {}", count(self.snapshots), count(self.unknowns))),
+            row("mean over time", mean.into()),
+            row("inner product", literal(&self.inner_product)),
+            row("method", literal(&self.method)),
+            row("because", literal(&self.reason)),
+        ]);
+        let section = Section::new("What was done").table(&table);
+        self.warnings.iter().fold(section, |section, text| section.warning(&literal(text)))
+    }
+
+    fn coefficients(&self) -> Section {
+        let section = Section::new("Temporal coefficients");
+        match self.coefficients.as_slice() {
+            [] => section.paragraph("There are none."),
+            _ => section.figure(draw::coefficients(self)),
+        }
+    }
+}
+
+/// Table and spectrum of the energies.
+fn energies(shares: &[Share]) -> Section {
+    let row = |(i, share): (usize, &Share)| {
+        vec![
+            (i + 1).to_string(),
+            scientific(share.eigenvalue, 4),
+            significant(share.percent, 4),
+            fixed(share.cumulative_percent, 4),
+            significant(share.rms_percent, 3),
+        ]
+    };
+    let head = [
+        "mode *i*",
+        "*λ*_{i}",
+        "energy (%)",
+        "cumulative *E* (%)",
+        "RMS error √(1\u{a0}−\u{a0}*E*) (%)",
+    ];
+    let sentence = match energy::modes_for_target(shares) {
+        Some(1) => "One mode holds 99.99 % of the energy, (31).".into(),
+        Some(n) => format!("{} modes hold 99.99 % of the energy, (31).", count(n)),
+        None => "The modes found hold less than 99.99 % of the energy, (31).".to_string(),
+    };
+    Section::new("Energy of the modes")
+        .paragraph(&sentence)
+        .figure(spectrum(shares))
+        .table(&Table::new(&head).rows(shares.iter().take(20).enumerate().map(row)))
+}
+
+fn spectrum(shares: &[Share]) -> Figure {
+    let n: Vec<f64> = (1..=shares.len()).map(|n| n as f64).collect();
+    let column = |value: fn(&Share) -> f64| shares.iter().map(value).collect::<Vec<f64>>();
+    let (energy, error) = (column(|s| s.percent), column(|s| s.rms_percent));
+    let series = if n.len() <= 40 { Series::marked } else { Series::line };
+    let modes = Axis::new("mode *i*", "").count().range(0.5, n.len() as f64 + 0.5);
+    let caption = "Energy of each mode and the RMS error of the projection on all modes up to it. \
+        A steep fall means that few modes suffice; a floor is noise or round-off.";
+    LineChart::new(modes, Axis::new("share", "%").log())
+        .series(series("energy *λ*_{i}/Σ*λ*", &n, &energy).colour(0))
+        .series(series("RMS error √(1\u{a0}−\u{a0}*E*)", &n, &error).colour(1))
+        .draw(320.0)
+        .figure("spectrum", caption)
+}

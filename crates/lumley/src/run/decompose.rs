@@ -1,0 +1,177 @@
+use super::basis::BasisFile;
+use super::ground::{global_product, is_mapped};
+use crate::Error;
+use crate::case::{Case, PodChoice};
+use crate::directory::Workplace;
+use crate::record::{FrameReader, Record};
+use crate::summary::Decomposition;
+use faer::{Mat, Par};
+use lumley_fem::LineMesh;
+use lumley_fem::element::{P1, P2};
+use lumley_pod::{
+    ALGORITHMS, InnerProduct, MemorySnapshots, Note, Options, PodError, ReducedBasis, SnapshotSource, SparseSpd,
+    Truncation, projection_residuals,
+};
+use std::num::NonZero;
+use std::path::Path;
+
+/// Errors and models are shown for this many modes at least.
+pub(super) const SWEEP: usize = 10;
+
+/// A basis with what the summary says of it.
+pub(super) struct Decomposed {
+    pub basis: ReducedBasis,
+    /// Modes that the case asks for; the basis may have more.
+    pub chosen: usize,
+}
+
+impl Decomposed {
+    /// POD of `x` as `choice` says, with at least [`SWEEP`] modes where the rank allows.
+    pub(super) fn with_sweep(
+        x: &dyn SnapshotSource,
+        product: &dyn InnerProduct,
+        choice: &PodChoice,
+        threads: usize,
+    ) -> Result<Self, PodError> {
+        let decompose = |truncation| pod(x, product, choice, truncation, threads);
+        match choice.truncation {
+            Truncation::Modes(modes) => {
+                let basis = decompose(Truncation::Modes(modes.max(SWEEP)))?;
+                let chosen = modes.min(basis.size());
+                Ok(Self { basis, chosen })
+            }
+            Truncation::Energy(share) => {
+                let basis = decompose(Truncation::Modes(SWEEP))?;
+                match basis.cumulative_percent().iter().position(|e| *e >= 100.0 * share) {
+                    Some(last) => Ok(Self { basis, chosen: last + 1 }),
+                    None => Self::exactly(x, product, choice, threads),
+                }
+            }
+        }
+    }
+
+    /// POD of `x` with the modes that `choice` asks for and no more.
+    pub(super) fn exactly(
+        x: &dyn SnapshotSource,
+        product: &dyn InnerProduct,
+        choice: &PodChoice,
+        threads: usize,
+    ) -> Result<Self, PodError> {
+        let basis = pod(x, product, choice, choice.truncation, threads)?;
+        let chosen = basis.size();
+        Ok(Self { basis, chosen })
+    }
+
+    pub(super) fn summary(&self) -> Decomposition {
+        let basis = &self.basis;
+        let reason = basis.notes.iter().find(|note| !note.is_warning());
+        Decomposition {
+            method: basis.algorithm.to_owned(),
+            reason: reason.map(ToString::to_string).unwrap_or_default(),
+            modes: self.chosen,
+            total_energy: basis.total_energy,
+            eigenvalues: basis.eigenvalues.clone(),
+            singular_values: basis.singular_values.clone(),
+            energy_percent: basis.energy_percent(),
+            cumulative_percent: basis.cumulative_percent(),
+            rms_error_percent: basis.rms_projection_error().iter().map(|e| 100.0 * e).collect(),
+        }
+    }
+
+    /// One line for people.
+    pub(super) fn headline(&self) -> String {
+        let energy = self.basis.cumulative_percent()[self.chosen - 1];
+        format!("{} modes hold {energy:.4} % of the energy ({})", self.chosen, self.basis.algorithm)
+    }
+
+    /// What the reader should know: the basis has less than was asked for.
+    pub(super) fn warnings(&self, choice: &PodChoice) -> Vec<String> {
+        let asked = match choice.truncation {
+            Truncation::Modes(modes) => modes,
+            Truncation::Energy(_) => 1,
+        };
+        let notes = self.basis.notes.iter().filter(|note| note.is_warning());
+        notes.filter(|_| self.basis.size() < asked).map(Note::to_string).collect()
+    }
+}
+
+fn pod(
+    x: &dyn SnapshotSource,
+    product: &dyn InnerProduct,
+    choice: &PodChoice,
+    truncation: Truncation,
+    threads: usize,
+) -> Result<ReducedBasis, PodError> {
+    let algorithm = ALGORITHMS.iter().find(|algorithm| algorithm.name == choice.method);
+    let algorithm = algorithm.expect("the choice names a known method");
+    let par = NonZero::new(threads).filter(|n| n.get() > 1).map_or(Par::Seq, Par::Rayon);
+    let options = Options { truncation, center: choice.center, par, ..Options::default() };
+    (algorithm.run)(x, product, &options)
+}
+
+/// The decompositions of a run, and what projection on the first modes loses.
+pub(super) struct Decompositions {
+    pub fixed: Decomposed,
+    pub reference: Option<Decomposed>,
+    pub projection_percent: Vec<f64>,
+}
+
+/// POD of the record's frames; the bases are written to `basis/`.
+pub(super) fn decompose(
+    case: &Case,
+    record: &Record,
+    place: &Workplace,
+    threads: usize,
+) -> Result<Decompositions, Error> {
+    let product = global_product(case);
+    let velocities = record.frame("fixed")?;
+    let path = place.path().join("record");
+    let fixed = Decomposed::with_sweep(&velocities, &product, &case.pod, threads);
+    let fixed = fixed.map_err(Error::pod(&path))?;
+    let residuals = projection_residuals(&fixed.basis, &velocities, &product);
+    let residuals = residuals.map_err(Error::pod(&path))?;
+    let folder = place.fresh_folder("basis")?;
+    BasisFile::save(&folder.join("fixed.npz"), &fixed.basis)?;
+    let mapped = case.models.iter().any(is_mapped);
+    let reference = if mapped { Some(reference(case, record, &path, threads)?) } else { None };
+    if let Some(reference) = &reference {
+        BasisFile::save(&folder.join("reference.npz"), &reference.basis)?;
+    }
+    let projection_percent = residuals.iter().take(SWEEP).map(|res| 100.0 * res).collect();
+    Ok(Decompositions { fixed, reference, projection_percent })
+}
+
+/// All snapshots of a frame, in columns.
+pub(super) fn whole(frame: &FrameReader) -> Result<Mat<f64>, Error> {
+    let mut x = Mat::zeros(frame.dim(), frame.times().len());
+    frame.read_block(0..x.nrows(), 0..x.ncols(), x.as_mut())?;
+    Ok(x)
+}
+
+/// POD of u - X' xi in L2(0, 1).
+fn reference(
+    case: &Case,
+    record: &Record,
+    path: &Path,
+    threads: usize,
+) -> Result<Decomposed, Error> {
+    let mesh = LineMesh::new(case.cells, if case.degree == 1 { &P1 } else { &P2 });
+    let nodes = mesh.uniform(0.0, 1.0);
+    // Records list the nodes from left to right, meshes their vertices first.
+    let mut place = vec![0; mesh.nodes()];
+    mesh.left_to_right().enumerate().for_each(|(k, node)| place[node] = k);
+    let mass = mesh.mass_matrix(&nodes).into_iter().map(|(i, j, m)| (place[i], place[j], m));
+    let product = SparseSpd::from_triplets(mesh.nodes(), &mass.collect::<Vec<_>>());
+    let product = product.expect("a mass matrix is symmetric positive definite");
+    let xi: Vec<f64> = mesh.left_to_right().map(|node| nodes[node]).collect();
+    let u = record.frame("reference")?;
+    let velocities = record.series("velocity")?;
+    let mut x = whole(&u)?;
+    for (k, column) in x.col_iter_mut().enumerate() {
+        for (u, xi) in column.iter_mut().zip(&xi) {
+            *u -= velocities.at(k)[0] * xi;
+        }
+    }
+    let x = MemorySnapshots::new(x, u.times().to_vec());
+    Decomposed::with_sweep(&x, &product, &case.pod, threads).map_err(Error::pod(path))
+}

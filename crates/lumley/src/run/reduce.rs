@@ -1,0 +1,170 @@
+use super::compare::Comparison;
+use super::decompose::SWEEP;
+use super::ground::Ground;
+use super::parallel::in_parallel;
+use super::simulate::fixed;
+use super::recorder::{Plan, Recorder, Gauge};
+use super::advance;
+use crate::Error;
+use crate::directory::Workplace;
+use crate::model::{Observer, StepError};
+use crate::progress::Progress;
+use crate::record::{Quantity, Support};
+use crate::summary::{Failure, Reduced};
+use lumley_rom::{ClosureKind, Integrator, ModelChoice, ReducedError, ReducedPiston};
+use std::path::Path;
+
+/// One reduced model with one number of modes, after its run.
+struct Attempt {
+    res_percent: Option<f64>,
+    step_us: Option<f64>,
+    failure: Option<Failure>,
+    stable_step: Option<f64>,
+}
+
+/// Runs every reduced model of the case with 1, 2, ... modes on `threads` threads; records the one that is
+/// shown in `rom/LABEL/record`.
+pub(super) fn reduce(
+    ground: &Ground,
+    place: &Workplace,
+    threads: usize,
+    progress: &mut Progress,
+) -> Result<Vec<Reduced>, Error> {
+    let labels = labels(&ground.case.models);
+    for label in &labels {
+        place.fresh_folder(&format!("rom/{label}"))?;
+    }
+    let jobs = jobs(ground);
+    progress.begin("reduced models", jobs.len());
+    let results = in_parallel(&jobs, threads, progress, &|&(model, modes)| {
+        let choice = &ground.case.models[model];
+        let record = place.path().join("rom").join(&labels[model]).join("record");
+        let keep = (modes == ground.shown_of(choice)).then_some(record);
+        ground.attempt(choice, modes, keep.as_deref())
+    })?;
+    let mut reduced: Vec<Reduced> = Vec::new();
+    for (k, (choice, label)) in ground.case.models.iter().zip(&labels).enumerate() {
+        let projection = choice.projection.name().to_owned();
+        let shown = Some(ground.shown_of(choice));
+        let mut entry = Reduced { projection, label: label.clone(), shown, ..Reduced::default() };
+        for ((_, modes), attempt) in jobs.iter().zip(&results).filter(|((model, _), _)| *model == k) {
+            entry.modes.push(*modes);
+            entry.res_percent.push(attempt.res_percent);
+            entry.step_us.push(attempt.step_us);
+            entry.failure.push(attempt.failure.clone());
+            entry.stable_step.push(attempt.stable_step);
+        }
+        reduced.push(entry);
+    }
+    Ok(reduced)
+}
+
+impl Ground<'_> {
+    /// What is recorded of a reduced model.
+    fn plan(&self, modes: usize) -> Plan<ReducedPiston> {
+        let [position, velocity] = Gauge::of_body();
+        let names = (1..=modes).map(|n| Quantity::new(format!("a{n}"), "1")).collect();
+        Plan {
+            frames: vec![(fixed(self.case), Support::Grid(self.case.grid.clone()))],
+            gauges: vec![
+                position,
+                velocity,
+                Gauge::new("traction", vec![Quantity::new("tau", "m2/s2")], |model: &ReducedPiston| {
+                    Ok(vec![model.traction()])
+                }),
+                Gauge::new("coefficients", names, |model: &ReducedPiston| {
+                    Ok(model.coefficients().to_vec())
+                }),
+            ],
+        }
+    }
+
+    /// Runs the model; a model that fails is a result, a disk that fails is an error.
+    fn attempt(
+        &self,
+        choice: &ModelChoice,
+        modes: usize,
+        record: Option<&Path>,
+    ) -> Result<Attempt, Error> {
+        let mut attempt = Attempt { res_percent: None, step_us: None, failure: None, stable_step: None };
+        match self.run(choice, modes, record, &mut attempt) {
+            Err(Error::Step(StepError::Reduced(error @ ReducedError::Diverged { time, .. }))) => {
+                attempt.failure = Some(Failure { time, message: error.to_string() });
+                Ok(attempt)
+            }
+            Err(other) => Err(other),
+            Ok(()) => Ok(attempt),
+        }
+    }
+
+    fn run(
+        &self,
+        choice: &ModelChoice,
+        modes: usize,
+        record: Option<&Path>,
+        attempt: &mut Attempt,
+    ) -> Result<(), Error> {
+        let mut model = self.build(choice, modes)?;
+        if matches!(self.case.integrator, Integrator::Rk4 {}) {
+            attempt.stable_step = Some(model.stable_step());
+        }
+        let recorder = match record {
+            Some(folder) => Some(Recorder::create(folder, self.case, self.plan(modes), &model)?),
+            None => None,
+        };
+        let comparison = self.full.as_ref().map(|full| {
+            Comparison::new(fixed(self.case), full.as_ref(), &self.product)
+        });
+        let mut observer = Both { recorder, comparison };
+        if let Some(comparison) = &mut observer.comparison {
+            comparison.observe(&model, 0)?;
+        }
+        let work = advance(&mut model, &self.case.rom_schedule, 0, &mut observer);
+        if let Some(recorder) = observer.recorder {
+            recorder.finish()?;
+        }
+        attempt.step_us = work?.step_us();
+        attempt.res_percent = observer.comparison.map(|c| c.percent());
+        Ok(())
+    }
+}
+
+struct Both<'a> {
+    recorder: Option<Recorder<ReducedPiston>>,
+    comparison: Option<Comparison<'a>>,
+}
+
+impl Observer<ReducedPiston> for Both<'_> {
+    fn observe(&mut self, model: &ReducedPiston, snapshot: usize) -> Result<(), Error> {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.observe(model, snapshot)?;
+        }
+        self.comparison.as_mut().map_or(Ok(()), |c| c.observe(model, snapshot))
+    }
+}
+
+/// Pairs of model and number of modes: 1 to [`SWEEP`], as far as the basis goes, and the number that is shown.
+fn jobs(ground: &Ground) -> Vec<(usize, usize)> {
+    let numbers = |choice: &ModelChoice| {
+        let (shown, most) = (ground.shown_of(choice), ground.most_of(choice));
+        (1..=most).filter(move |n| *n <= SWEEP || *n == shown)
+    };
+    let models = ground.case.models.iter().enumerate();
+    models.flat_map(|(k, choice)| numbers(choice).map(move |n| (k, n))).collect()
+}
+
+/// One name for each model: the projection, its closure, and a number where that is not enough.
+fn labels(models: &[ModelChoice]) -> Vec<String> {
+    let mut labels: Vec<String> = Vec::new();
+    for choice in models {
+        let projection = choice.projection.name();
+        let plain = match choice.closure {
+            ClosureKind::None {} => projection.to_owned(),
+            ClosureKind::EddyViscosity(_) => format!("{projection}-eddy-viscosity"),
+        };
+        let numbered = (2..).map(|k| format!("{plain}-{k}"));
+        let mut candidates = std::iter::once(plain.clone()).chain(numbered);
+        labels.extend(candidates.find(|label| !labels.contains(label)));
+    }
+    labels
+}

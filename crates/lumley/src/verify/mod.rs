@@ -1,0 +1,101 @@
+//! The reference numbers of the piston, and what this program makes of them.
+//!
+//! Two canonical cases: A leaves the block alone (c_F = 0), B is truly coupled (c_F = 1). Everything is
+//! computed by the same stages as `lumley run`, in a directory that is removed afterwards.
+
+mod piston;
+
+pub use piston::{CASES, rows};
+
+use crate::summary::Summary;
+
+/// One line of the table.
+///
+/// ```
+/// use lumley::verify::{Row, Tolerance};
+/// let row = Row {
+///     case: "A", quantity: "X(1)", unit: "m",
+///     reference: 0.9886101, tolerance: Tolerance::Absolute(5e-6), computed: Some(0.988_612),
+/// };
+/// assert!(row.passes());
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// `A` or `B`.
+    pub case: &'static str,
+    /// What is compared.
+    pub quantity: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+    /// The reference number.
+    pub reference: f64,
+    /// How far from it a right program may be.
+    pub tolerance: Tolerance,
+    /// What came out; `None` where nothing did.
+    pub computed: Option<f64>,
+}
+
+/// How far a number may be from its reference.
+///
+/// ```
+/// use lumley::verify::Tolerance;
+/// assert_eq!(Tolerance::Relative(0.01).width(-50.0), 0.5);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Tolerance {
+    /// This far, in the quantity's unit.
+    Absolute(f64),
+    /// This share of the reference.
+    Relative(f64),
+    /// At least the reference: the claim is that it is bad. Nothing at all, a blow-up, passes.
+    AtLeast,
+}
+
+impl Tolerance {
+    /// The width round `reference`, in its unit.
+    pub fn width(self, reference: f64) -> f64 {
+        match self {
+            Self::Absolute(width) => width,
+            Self::Relative(share) => share * reference.abs(),
+            Self::AtLeast => f64::INFINITY,
+        }
+    }
+}
+
+impl Row {
+    /// Whether the computed number is within the tolerance.
+    pub fn passes(&self) -> bool {
+        match (self.tolerance, self.computed) {
+            (Tolerance::AtLeast, None) => true,
+            (_, None) => false,
+            (Tolerance::AtLeast, Some(x)) => x >= self.reference,
+            (tolerance, Some(x)) => (x - self.reference).abs() <= tolerance.width(self.reference),
+        }
+    }
+
+    /// The line as it is printed.
+    pub fn line(&self) -> String {
+        let computed = self.computed.map_or_else(|| "blew up".to_owned(), |x| format!("{x:.7}"));
+        let tolerance = match self.tolerance {
+            Tolerance::AtLeast => "or more".to_owned(),
+            Tolerance::Absolute(width) => format!("{width}"),
+            Tolerance::Relative(share) => format!("{} %", 100.0 * share),
+        };
+        let verdict = if self.passes() { "pass" } else { "FAIL" };
+        let Self { case, quantity, unit, reference, .. } = self;
+        format!("{case:<4} {quantity:<34} {reference:>12} {computed:>13} {unit:<6} {tolerance:>8}  {verdict}")
+    }
+
+    /// The heading above [`line`](Self::line)s.
+    pub fn heading() -> String {
+        let (quantity, reference, computed, tolerance) = ("quantity", "reference", "computed", "within");
+        format!("case {quantity:<34} {reference:>12} {computed:>13} {:<6} {tolerance:>8}", "unit")
+    }
+}
+
+/// Res of a reduced model with `modes` modes, in percent, as the summary has it.
+fn res(summary: &Summary, label: &str, modes: usize) -> Option<f64> {
+    let model = summary.rom.iter().find(|model| model.label == label)?;
+    let place = model.modes.iter().position(|n| *n == modes)?;
+    model.res_percent[place]
+}

@@ -1,0 +1,127 @@
+use crate::TimeWeightsError;
+use std::io;
+
+/// Why there is no POD of these snapshots.
+///
+/// ```
+/// use lumley_pod::{Identity, MemorySnapshots, Options, PodError, auto};
+/// let mut x = faer::Mat::<f64>::zeros(3, 2);
+/// x[(2, 1)] = f64::NAN;
+/// let error = auto(&MemorySnapshots::new(x, vec![0.0, 1.0]), &Identity::new(3), &Options::default());
+/// assert!(matches!(error, Err(PodError::NonFinite { snapshot: 1, row: 2, .. })));
+/// ```
+#[derive(Debug, thiserror::Error)]
+pub enum PodError {
+    /// There is nothing to decompose.
+    #[error("no snapshots of {unknowns} unknowns: POD needs at least one snapshot and one unknown")]
+    Empty {
+        /// Length n of a snapshot; the number of snapshots is zero unless this is.
+        unknowns: usize,
+    },
+    /// Snapshots and inner product belong to different spaces.
+    #[error(
+        "snapshots have {unknowns} unknowns but the inner product is one of {product}: \
+         give weights made for the same grid and components"
+    )]
+    Dimension {
+        /// Length n of a snapshot.
+        unknowns: usize,
+        /// Length that the inner product was made for.
+        product: usize,
+    },
+    /// Two trajectories that are compared have different shapes.
+    #[error(
+        "trajectories of {unknowns} unknowns x {snapshots} snapshots and of {other_unknowns} x \
+         {other_snapshots} cannot be compared: sample both on the same grid at the same times"
+    )]
+    Trajectories {
+        /// Unknowns of the first.
+        unknowns: usize,
+        /// Snapshots of the first.
+        snapshots: usize,
+        /// Unknowns of the second.
+        other_unknowns: usize,
+        /// Snapshots of the second.
+        other_snapshots: usize,
+    },
+    /// An entry is NaN or infinite.
+    #[error(
+        "snapshot {snapshot} (time {time} s) holds {value} in row {row}, counted from 0: \
+         every entry must be finite; remove or repair this snapshot"
+    )]
+    NonFinite {
+        /// Index of the snapshot, from 0.
+        snapshot: usize,
+        /// Its time, in s.
+        time: f64,
+        /// Index of the unknown, from 0.
+        row: usize,
+        /// What stands there.
+        value: f64,
+    },
+    /// The snapshots vanish, or do so once their mean is subtracted.
+    #[error("{snapshots} snapshots hold no energy: {}", no_energy(*.centred))]
+    NoEnergy {
+        /// Number M of snapshots.
+        snapshots: usize,
+        /// Whether their mean was subtracted.
+        centred: bool,
+    },
+    /// Squares of the entries exceed the range of `f64`.
+    #[error(
+        "the energy of the snapshots exceeds the range of a 64-bit number: \
+         scale them so that entries stay below 1e150"
+    )]
+    Overflow,
+    /// No mode was asked for.
+    #[error("0 modes were asked for: ask for at least 1")]
+    NoModes,
+    /// The energy asked for is no fraction.
+    #[error(
+        "the modes shall hold the fraction {fraction} of the energy: expected 0 < fraction <= 1"
+    )]
+    Energy {
+        /// The fraction asked for.
+        fraction: f64,
+    },
+    /// The time weights do not fit.
+    #[error(transparent)]
+    TimeWeights(#[from] TimeWeightsError),
+    /// The computation needs more memory than it may take.
+    #[error("{what} needs {bytes} bytes but the limit is {limit}: {remedy}")]
+    Memory {
+        /// What would be held.
+        what: &'static str,
+        /// How much that is, in bytes.
+        bytes: u128,
+        /// The limit in [`Options`](crate::Options), in bytes.
+        limit: u64,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The dense eigenvalue or singular value iteration failed.
+    #[error(
+        "the {size} x {size} eigenvalue iteration did not converge: \
+         take another algorithm or scale the snapshots"
+    )]
+    NoConvergence {
+        /// Order of the matrix.
+        size: usize,
+    },
+    /// Modes that should be orthonormal are linearly dependent to working precision.
+    #[error(
+        "the smallest modes lost their orthogonality to round-off: ask for fewer modes or take `svd`"
+    )]
+    LostOrthogonality,
+    /// The snapshots cannot be read.
+    #[error("cannot read the snapshots: {0}")]
+    Read(#[from] io::Error),
+}
+
+fn no_energy(centred: bool) -> &'static str {
+    if centred {
+        "they are constant in time; do not subtract the mean, or record a flow that moves"
+    } else {
+        "every entry is zero or too small to be squared"
+    }
+}

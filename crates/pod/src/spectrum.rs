@@ -1,0 +1,63 @@
+use crate::{Note, Truncation};
+
+/// The eigenvalues that an algorithm computed, and which of them it can vouch for.
+#[derive(Debug, Clone)]
+pub(crate) struct Spectrum {
+    /// Eigenvalues, largest first, none negative.
+    pub values: Vec<f64>,
+    /// Those at or under this are noise.
+    pub floor: f64,
+    /// Whether what is under the floor is round-off of the snapshots themselves, so that the
+    /// number above it is their rank.
+    pub reveals_rank: bool,
+}
+
+impl Spectrum {
+    /// * `floor`: relative to the first eigenvalue
+    ///
+    /// Returns nothing where there is no energy.
+    pub fn new(mut values: Vec<f64>, floor: f64, reveals_rank: bool) -> Option<Self> {
+        for value in &mut values {
+            *value = value.max(0.0);
+        }
+        let first = values.first().copied().filter(|l| *l >= f64::MIN_POSITIVE)?;
+        Some(Self { values, floor: floor * first, reveals_rank })
+    }
+
+    /// Eigenvalues above the floor.
+    pub fn rank(&self) -> usize {
+        self.values.iter().take_while(|l| **l > self.floor).count()
+    }
+
+    /// Number of modes that are asked for, whether or not they can be had.
+    pub fn asked(&self, truncation: Truncation) -> usize {
+        match truncation {
+            Truncation::Modes(modes) => modes,
+            Truncation::Energy(fraction) => {
+                let wanted = fraction * self.values.iter().sum::<f64>();
+                let mut sum = 0.0;
+                let short = |l: &&f64| {
+                    sum += **l;
+                    sum < wanted
+                };
+                1 + self.values.iter().take_while(short).count().min(self.values.len() - 1)
+            }
+        }
+    }
+
+    /// Number of modes to keep, with a warning if more were asked for. An energy asked for is not
+    /// warned about: what the modes under the floor hold is round-off.
+    pub fn keep(&self, truncation: Truncation) -> (usize, Option<Note>) {
+        let (asked, rank) = (self.asked(truncation), self.rank());
+        let kept = asked.min(rank);
+        let Truncation::Modes(requested) = truncation else { return (kept, None) };
+        let note = if requested <= rank {
+            None
+        } else if self.reveals_rank || rank == self.values.len() {
+            Some(Note::Rank { requested, rank })
+        } else {
+            Some(Note::NoiseFloor { requested, kept, floor: self.floor })
+        };
+        (kept, note)
+    }
+}

@@ -1,0 +1,165 @@
+//! Which singular values and modes each algorithm resolves, on spectra with known answers.
+
+mod common;
+
+use common::{inner, orthonormal, products, snapshots, with_singular_values};
+use faer::Mat;
+use lumley_pod::{
+    Choice, Identity, InnerProduct, Note, Options, ReducedBasis, Truncation, auto, direct,
+    method_of_snapshots, svd,
+};
+
+const N: usize = 500;
+const M: usize = 29;
+
+/// Spectra from 1 to 1e-14.
+fn spectra() -> [(&'static str, Vec<f64>); 3] {
+    let steps = |k: usize| 10_f64.powf(-0.5 * k as f64);
+    let clustered = |k: usize| [1.0, 1e-5, 1e-9, 1e-13][k / 8] * (1.0 + 1e-3 * (k % 8) as f64);
+    let mixed = |k: usize| if k < 15 { 1.0 / (1 + k) as f64 } else { steps(2 * (k - 15) + 2) };
+    let descending = |f: &dyn Fn(usize) -> f64| {
+        let mut sigma: Vec<f64> = (0..M).map(f).filter(|s| *s >= 1e-14).collect();
+        sigma.sort_by(|a, b| b.total_cmp(a));
+        sigma
+    };
+    [
+        ("graded", descending(&steps)),
+        ("clustered", descending(&clustered)),
+        ("mixed", descending(&mixed)),
+    ]
+}
+
+fn ask(modes: usize) -> Options {
+    Options { truncation: Truncation::Modes(modes), ..Options::default() }
+}
+
+fn orthonormality_defect(basis: &ReducedBasis, w: &dyn InnerProduct) -> f64 {
+    let phi = basis.modes.as_ref();
+    (inner(w, phi, phi) - Mat::<f64>::identity(basis.size(), basis.size())).norm_max()
+}
+
+#[test]
+fn svd_resolves_every_spectrum_to_round_off_of_the_first_value() {
+    for (product, w) in products(N) {
+        for (spectrum, sigma) in spectra() {
+            let x = with_singular_values(&sigma, (N, M), &*w, 21);
+            let basis = svd(&snapshots(x.clone()), &*w, &ask(M)).expect("a decomposition");
+            let name = format!("{spectrum}, {product}");
+            let resolved = sigma.iter().filter(|s| **s > 6e-15).count();
+            assert!(basis.size() >= resolved, "{name}: {} modes of {resolved}", basis.size());
+            for (k, (got, known)) in basis.singular_values.iter().zip(&sigma).enumerate() {
+                let error = (got - known).abs();
+                assert!(error < 2e-15, "{name}: sigma_{k} = {known:e} is off by {error:e}");
+            }
+            let defect = orthonormality_defect(&basis, &*w);
+            assert!(defect < 1e-12, "{name}: {defect:e}");
+            let back = basis.reconstruct(basis.coefficients.as_ref()) - &x;
+            let error = inner(&*w, back.as_ref(), back.as_ref()).norm_max().sqrt();
+            assert!(error < 2e-14, "{name}: |X - Phi a| = {error:e}");
+        }
+    }
+}
+
+/// Snapshots of a decaying transient: graded columns that are not orthogonal to each other.
+#[test]
+fn svd_reconstructs_a_decaying_transient() {
+    let mut x = common::random_matrix(N, M, 3);
+    for (j, column) in x.col_iter_mut().enumerate() {
+        column.iter_mut().for_each(|x| *x *= 10_f64.powf(-0.5 * j as f64));
+    }
+    let w = Identity::new(N);
+    let basis = svd(&snapshots(x.clone()), &w, &ask(M)).expect("a decomposition");
+    assert!(orthonormality_defect(&basis, &w) < 1e-12);
+    let error = (basis.reconstruct(basis.coefficients.as_ref()) - &x).norm_l2();
+    let bound = 1e-14 * basis.singular_values[0];
+    assert!(error < bound, "{error:e} > {bound:e}");
+}
+
+/// The Gram routes see nothing under sqrt(M eps): they say so and return no such mode.
+#[test]
+fn gram_routes_refuse_modes_under_their_noise() {
+    let sigma: Vec<f64> = (0..M).map(|k| 10_f64.powf(-0.5 * k as f64)).collect();
+    for (product, w) in products(N) {
+        let x = with_singular_values(&sigma, (N, M), &*w, 21);
+        for (name, run, order) in
+            [("snapshots", method_of_snapshots as fn(&_, &_, &_) -> _, M), ("direct", direct, N)]
+        {
+            let basis = run(&snapshots(x.clone()), &*w, &ask(M)).expect("a decomposition");
+            let kept = basis.size();
+            assert!((12..=16).contains(&kept), "{name}, {product}: {kept} modes");
+            assert!(matches!(
+                basis.notes[..],
+                [Note::NoiseFloor { requested: M, kept: k, floor }]
+                    if k == kept && floor == basis.noise_floor
+            ));
+            let noise = order as f64 * f64::EPSILON;
+            for (got, known) in basis.singular_values.iter().zip(&sigma) {
+                let error = (got / known - 1.0).abs();
+                assert!(error < 2.0 * noise / known.powi(2), "{name}: {known:e} off by {error:e}");
+            }
+            let defect = orthonormality_defect(&basis, &*w);
+            assert!(defect < 1e-12, "{name}, {product}: {defect:e}");
+        }
+    }
+}
+
+#[test]
+fn auto_takes_the_gram_matrix_while_it_is_exact() {
+    let sigma: Vec<f64> = (0..M).map(|k| 10_f64.powf(-0.5 * k as f64)).collect();
+    let (_, w) = &products(N)[1];
+    let x = snapshots(with_singular_values(&sigma, (N, M), &**w, 21));
+    let mut taken = Vec::new();
+    for modes in 1..=M {
+        let basis = auto(&x, &**w, &ask(modes)).expect("a decomposition");
+        let Note::Chosen(choice) = &basis.notes[0] else { panic!("{:?}", basis.notes) };
+        match choice {
+            Choice::Snapshots { smallest, bound } => assert!(smallest >= bound),
+            Choice::SvdBelowBound { smallest, bound } => assert!(smallest < bound),
+            Choice::SvdFewUnknowns { .. } => panic!("{N} unknowns are more than {M} snapshots"),
+        }
+        for (got, known) in basis.singular_values.iter().zip(&sigma) {
+            let error = (got / known - 1.0).abs();
+            let exact = 1e-6_f64.max(1e-15 / known);
+            assert!(error < exact, "{modes} modes: {known:e} is off by {error:e}");
+        }
+        assert!(orthonormality_defect(&basis, &**w) < 1e-12);
+        taken.push(basis.algorithm);
+    }
+    let first_svd = taken.iter().position(|name| *name == "svd").expect("small modes need svd");
+    assert!((6..12).contains(&first_svd), "svd from mode {first_svd}");
+    assert!(taken[first_svd..].iter().all(|name| *name == "svd"));
+}
+
+/// Three waves and nothing else: the others asked for are not invented.
+#[test]
+fn more_modes_than_the_rank_gives_the_rank() {
+    let (u, v) = (orthonormal(N, 3, 1), orthonormal(M, 3, 2));
+    let x = snapshots(u * v.transpose());
+    let w = Identity::new(N);
+    for run in [svd, auto] {
+        let basis = run(&x, &w, &ask(10)).expect("a decomposition");
+        assert_eq!((basis.size(), basis.rank), (3, 3));
+        assert_eq!(basis.notes.last(), Some(&Note::Rank { requested: 10, rank: 3 }));
+    }
+    for run in [method_of_snapshots, direct] {
+        let basis = run(&x, &w, &ask(10)).expect("a decomposition");
+        assert_eq!(basis.size(), 3);
+        assert!(matches!(basis.notes[..], [Note::NoiseFloor { requested: 10, kept: 3, .. }]));
+    }
+    let few = snapshots(common::random_matrix(N, 4, 1));
+    let basis = method_of_snapshots(&few, &w, &ask(10)).expect("a decomposition");
+    assert_eq!(basis.notes, [Note::Rank { requested: 10, rank: 4 }]);
+}
+
+/// The energy asked for is met by the fewest modes.
+#[test]
+fn energy_chooses_the_fewest_modes() {
+    let x = snapshots(with_singular_values(&[3.0, 2.0, 1.0], (N, M), &Identity::new(N), 2));
+    let modes = |fraction: f64| {
+        let options = Options { truncation: Truncation::Energy(fraction), ..Options::default() };
+        svd(&x, &Identity::new(N), &options).expect("a decomposition").size()
+    };
+    // Energies 9, 4 and 1 of 14.
+    assert_eq!([modes(0.1), modes(0.64), modes(0.65), modes(0.92)], [1, 1, 2, 2]);
+    assert_eq!([modes(0.93), modes(0.9999), modes(1.0)], [3, 3, 3]);
+}

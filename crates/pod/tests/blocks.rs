@@ -1,0 +1,117 @@
+//! What does not depend on threads, and what is read how.
+
+mod common;
+
+use common::{products, random_matrix, times, with_singular_values};
+use faer::{MatMut, Par};
+use lumley_pod::{
+    ALGORITHMS, Identity, MemorySnapshots, Options, SnapshotSource, Truncation, auto,
+    method_of_snapshots, svd,
+};
+use std::io;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Many blocks of rows, the last one short.
+const N: usize = 9001;
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    let sigma: Vec<f64> = (0..9).map(|k| 0.1_f64.powi(k)).collect();
+    for (product, w) in products(N) {
+        let x = MemorySnapshots::new(with_singular_values(&sigma, (N, 12), &*w, 7), times(12));
+        for run in [auto, method_of_snapshots, svd] {
+            let basis = |par| {
+                let truncation = Truncation::Modes(6);
+                let options = Options { truncation, center: true, par, ..Options::default() };
+                run(&x, &*w, &options).expect("a decomposition")
+            };
+            let one = basis(Par::Seq);
+            for threads in [2, 3, 5] {
+                let many = basis(Par::rayon(threads));
+                assert_eq!(one.modes, many.modes, "{}, {product}", one.algorithm);
+                assert_eq!(one.spectrum, many.spectrum, "{}, {product}", one.algorithm);
+                assert_eq!(one.coefficients, many.coefficients, "{}, {product}", one.algorithm);
+            }
+        }
+    }
+}
+
+/// Counts what is read.
+struct Counting {
+    x: MemorySnapshots,
+    entries: AtomicUsize,
+    largest: AtomicUsize,
+}
+
+impl SnapshotSource for Counting {
+    fn dim(&self) -> usize {
+        self.x.dim()
+    }
+
+    fn times(&self) -> &[f64] {
+        self.x.times()
+    }
+
+    fn block(
+        &self,
+        rows: Range<usize>,
+        cols: Range<usize>,
+        out: MatMut<'_, f64>,
+    ) -> io::Result<()> {
+        let size = rows.len() * cols.len();
+        self.entries.fetch_add(size, Ordering::Relaxed);
+        self.largest.fetch_max(size, Ordering::Relaxed);
+        self.x.block(rows, cols, out)
+    }
+}
+
+/// Two passes in blocks, far from the whole; one more for the mean.
+#[test]
+fn snapshots_are_read_twice_by_blocks() {
+    let n = 60_000;
+    for run in [method_of_snapshots, svd] {
+        for (center, passes) in [(false, 2), (true, 3)] {
+            let x = Counting {
+                x: MemorySnapshots::new(random_matrix(n, 10, 3), times(10)),
+                entries: AtomicUsize::new(0),
+                largest: AtomicUsize::new(0),
+            };
+            let options = Options { center, ..Options::default() };
+            run(&x, &Identity::new(n), &options).expect("a decomposition");
+            assert_eq!(x.entries.into_inner(), passes * n * 10);
+            assert!(x.largest.into_inner() <= n * 10 / 7);
+        }
+    }
+}
+
+/// A medium that fails, or a block that fails, is an error of the decomposition.
+#[test]
+fn a_source_that_cannot_be_read_is_an_error() {
+    struct Broken(Vec<f64>);
+    impl SnapshotSource for Broken {
+        fn dim(&self) -> usize {
+            N
+        }
+        fn times(&self) -> &[f64] {
+            &self.0
+        }
+        fn block(
+            &self,
+            rows: Range<usize>,
+            _: Range<usize>,
+            mut out: MatMut<'_, f64>,
+        ) -> io::Result<()> {
+            out.fill(1.0);
+            if rows.end == N { Err(io::Error::other("block 7 is damaged")) } else { Ok(()) }
+        }
+    }
+    for algorithm in &ALGORITHMS[..2] {
+        for par in [Par::Seq, Par::rayon(2)] {
+            let options = Options { par, ..Options::default() };
+            let error = (algorithm.run)(&Broken(times(3)), &Identity::new(N), &options);
+            let message = error.expect_err("the last block is damaged").to_string();
+            assert_eq!(message, "cannot read the snapshots: block 7 is damaged");
+        }
+    }
+}

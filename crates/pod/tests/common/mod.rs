@@ -1,0 +1,87 @@
+//! Snapshots with known answers, shared by the tests.
+
+#![allow(dead_code, reason = "each test file takes what it needs")]
+
+use faer::{Mat, MatRef, Par};
+use lumley_pod::{Diagonal, Identity, InnerProduct, MemorySnapshots, SparseSpd};
+
+/// Numbers in (-1, 1) from a linear congruential generator.
+pub fn random(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+    move || {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+pub fn random_matrix(rows: usize, columns: usize, seed: u64) -> Mat<f64> {
+    let mut next = random(seed);
+    Mat::from_fn(rows, columns, |_, _| next())
+}
+
+/// Orthonormal columns, at random.
+pub fn orthonormal(rows: usize, columns: usize, seed: u64) -> Mat<f64> {
+    random_matrix(rows, columns, seed).qr().compute_thin_Q()
+}
+
+/// Snapshots whose `W^(1/2) X` has these singular values.
+pub fn with_singular_values(
+    sigma: &[f64],
+    shape: (usize, usize),
+    w: &dyn InnerProduct,
+    seed: u64,
+) -> Mat<f64> {
+    let (n, m) = shape;
+    let mut u = orthonormal(n, sigma.len(), seed);
+    w.unfactor(0, u.as_mut());
+    let v = orthonormal(m, sigma.len(), seed + 1);
+    let sigma_vt = Mat::from_fn(sigma.len(), m, |k, j| sigma[k] * v[(j, k)]);
+    let mut x = Mat::zeros(n, m);
+    faer::linalg::matmul::matmul(&mut x, faer::Accum::Replace, &u, &sigma_vt, 1.0, Par::Seq);
+    x
+}
+
+/// The mass matrix of linear elements of unequal lengths on a line.
+pub fn mass_matrix(n: usize) -> SparseSpd {
+    let mut next = random(5);
+    let of_cell = |k: usize| {
+        let h = (1.5 + next()) / 6.0;
+        [(k, k, 2.0 * h), (k, k + 1, h), (k + 1, k, h), (k + 1, k + 1, 2.0 * h)]
+    };
+    let entries: Vec<_> = (0..n - 1).flat_map(of_cell).collect();
+    SparseSpd::from_triplets(n, &entries).expect("a mass matrix is positive definite")
+}
+
+/// An inner product of each kind.
+pub fn products(n: usize) -> [(&'static str, Box<dyn InnerProduct>); 3] {
+    let mut next = random(3);
+    let weights = (0..n).map(|_| 1.5 + next()).collect();
+    [
+        ("identity", Box::new(Identity::new(n))),
+        ("diagonal", Box::new(Diagonal::new(weights).expect("positive"))),
+        ("sparse", Box::new(mass_matrix(n))),
+    ]
+}
+
+/// Unequal times, in s.
+pub fn times(m: usize) -> Vec<f64> {
+    let mut next = random(9);
+    (0..m).map(|j| j as f64 + 0.4 * next()).collect()
+}
+
+pub fn snapshots(x: Mat<f64>) -> MemorySnapshots {
+    let times = times(x.ncols());
+    MemorySnapshots::new(x, times)
+}
+
+/// `Aᵀ W B`.
+pub fn inner(w: &dyn InnerProduct, a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut weighted = b.to_owned();
+    w.apply(0, weighted.as_mut());
+    a.transpose() * weighted
+}
+
+pub fn largest(a: impl IntoIterator<Item = f64>) -> f64 {
+    a.into_iter().map(f64::abs).fold(0.0, f64::max)
+}

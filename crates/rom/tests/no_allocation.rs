@@ -1,0 +1,76 @@
+//! A step of a reduced model allocates nothing.
+#![allow(unsafe_code, reason = "only an allocator can count allocations, and its trait is unsafe")]
+
+#[path = "../src/manufactured.rs"]
+mod manufactured;
+
+use lumley_body::joint::Prismatic;
+use lumley_fem::UniformGrid;
+use lumley_rom::{
+    Basis, ClosureKind, EddyViscosity, Integrator, ModelChoice, Multiplier, Penalty, PistonPhysics,
+    PistonStart, ProjectionKind, ReducedError, ReducedPiston, Rosenbrock,
+};
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+
+thread_local! {
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// The system's allocator, counting for each thread.
+struct Counting;
+
+// SAFETY: every call goes to the system's allocator unchanged.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.with(|count| count.set(count.get() + 1));
+        // SAFETY: the caller's promises are passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promises are passed on.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn basis(projection: ProjectionKind) -> Result<Basis, ReducedError> {
+    if projection == (ProjectionKind::Mapped {}) {
+        let nodes = manufactured::nodes(1.0, 41);
+        let modes = manufactured::reference_modes(&nodes, 2, 4);
+        return Basis::on_reference(&nodes, 2, modes.as_ref(), None);
+    }
+    let modes = manufactured::grid_modes(&manufactured::nodes(1.1, 61), 4);
+    Basis::on_grid(&UniformGrid::line(0.0, 1.1, 61), modes.as_ref(), None)
+}
+
+#[test]
+fn stepping_allocates_nothing() -> Result<(), ReducedError> {
+    let joint = Prismatic { mass: 0.5, stiffness: 39.5, damping: 0.1, rest_length: 0.95 };
+    let physics = PistonPhysics { viscosity: 0.2, force_factor: 1.0, domain_length: 1.1, joint };
+    let closure = ClosureKind::EddyViscosity(EddyViscosity::default());
+    let start = PistonStart { coefficients: vec![0.01; 4], position: 0.9, velocity: 0.0 };
+    for projection in [
+        ProjectionKind::Corrected {},
+        ProjectionKind::Multiplier(Multiplier::default()),
+        ProjectionKind::Penalty(Penalty::default()),
+        ProjectionKind::Mapped {},
+    ] {
+        for integrator in [Integrator::Rk4 {}, Integrator::Rosenbrock(Rosenbrock::default())] {
+            let model = ModelChoice { projection, closure };
+            let basis = basis(projection)?;
+            let mut piston = ReducedPiston::new(&physics, &model, integrator, &basis, &start)?;
+            let before = ALLOCATIONS.with(Cell::get);
+            assert!(before > 0, "the allocator counts");
+            for _ in 0..50 {
+                piston.step(1e-4)?;
+            }
+            let found = ALLOCATIONS.with(Cell::get) - before;
+            assert_eq!(found, 0, "{projection:?} with {integrator:?}");
+        }
+    }
+    Ok(())
+}
