@@ -44,17 +44,20 @@ fn finite_elements_give_the_global_velocity() -> Result<(), TransferError> {
     Ok(())
 }
 
-/// Against a mesh ten times finer, inverse distance loses more than an order of magnitude.
+/// Against a mesh ten times finer: the error of the elements is the model's own, inverse distance
+/// adds hundreds of times as much.
 #[test]
 fn inverse_distance_is_far_less_accurate() -> Result<(), TransferError> {
     let grid = UniformGrid::line(0.0, 1.1, 401);
-    let exact = on_grid(Transfer::default(), &piston(1000, 1), &grid)?;
+    let exact = on_grid(Transfer::default(), &piston(1000, 2), &grid)?;
+    let coarse = piston(100, 2);
     let worst = |method| -> Result<f64, TransferError> {
-        let v = on_grid(method, &piston(100, 1), &grid)?;
+        let v = on_grid(method, &coarse, &grid)?;
         Ok(v.iter().zip(&exact).map(|(v, e)| (v - e).abs()).fold(0.0, f64::max))
     };
     let [elements, inverse] = [worst(Transfer::default())?, worst(INVERSE)?];
-    assert!(inverse > 10.0 * elements, "{inverse:e} {elements:e}");
+    assert!(elements < 2e-6, "{elements:e}");
+    assert!((1e-4..1e-3).contains(&inverse), "{inverse:e}");
     Ok(())
 }
 

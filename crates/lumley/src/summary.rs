@@ -72,15 +72,15 @@ pub struct FullOrder {
     pub variants: Vec<Variant>,
 }
 
-/// A full-order model of another resolution.
+/// A model of another resolution.
 ///
 /// ```
-/// assert_eq!(lumley::summary::Variant::default().cells, 0);
+/// assert_eq!(lumley::summary::Variant::default().size, 0);
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Variant {
-    /// Cells of the mesh.
-    pub cells: usize,
+    /// Cells of the mesh of a full-order model, modes of a reduced one.
+    pub size: usize,
     /// Time step, in s.
     pub step: f64,
     /// Steps to the end.
@@ -242,18 +242,19 @@ impl Reduced {
     }
 }
 
-/// The reduced model beside the cheapest full-order model that is no less accurate.
+/// The reduced model beside the cheapest full-order model that is no less accurate, each with the longest
+/// step that keeps its accuracy.
 ///
 /// ```
 /// assert_eq!(lumley::summary::Speedup::default().ratio, 0.0);
 /// ```
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Speedup {
+    /// The reduced model.
+    pub reduced: Variant,
     /// The full-order model.
     pub full: Variant,
-    /// Time of the reduced model for the whole simulated time, in ms.
-    pub reduced_ms: f64,
-    /// The full-order model's time over the reduced model's.
+    /// The full-order model's time for the whole simulated time over the reduced model's.
     pub ratio: f64,
 }
 

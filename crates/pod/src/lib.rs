@@ -44,7 +44,7 @@ pub use basis::ReducedBasis;
 pub use error::PodError;
 pub use error_norm::{projection_residuals, trajectory_residual};
 pub use inner_product::{Diagonal, Identity, InnerProduct, InnerProductError, SparseSpd};
-pub use note::{Choice, Note};
+pub use note::Note;
 pub use options::{Options, Truncation};
 pub use snapshots::{MemorySnapshots, SnapshotSource};
 pub use time_weights::TimeWeightsError;

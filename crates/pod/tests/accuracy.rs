@@ -5,7 +5,7 @@ mod common;
 use common::{inner, orthonormal, products, snapshots, with_singular_values};
 use faer::Mat;
 use lumley_pod::{
-    Choice, Identity, InnerProduct, Note, Options, ReducedBasis, Truncation, auto, direct,
+    Identity, InnerProduct, Note, Options, ReducedBasis, Truncation, auto, direct,
     method_of_snapshots, svd,
 };
 
@@ -111,12 +111,11 @@ fn auto_takes_the_gram_matrix_while_it_is_exact() {
     let mut taken = Vec::new();
     for modes in 1..=M {
         let basis = auto(&x, &**w, &ask(modes)).expect("a decomposition");
-        let Note::Chosen(choice) = &basis.notes[0] else { panic!("{:?}", basis.notes) };
-        match choice {
-            Choice::Snapshots { smallest, bound } => assert!(smallest >= bound),
-            Choice::SvdBelowBound { smallest, bound } => assert!(smallest < bound),
-            Choice::SvdFewUnknowns { .. } => panic!("{N} unknowns are more than {M} snapshots"),
-        }
+        let Note::Chosen { algorithm, smallest, bound } = basis.notes[0] else {
+            panic!("{:?}", basis.notes)
+        };
+        assert_eq!(algorithm, basis.algorithm);
+        assert_eq!(algorithm == "svd", smallest < bound);
         for (got, known) in basis.singular_values.iter().zip(&sigma) {
             let error = (got / known - 1.0).abs();
             let exact = 1e-6_f64.max(1e-15 / known);
@@ -128,6 +127,22 @@ fn auto_takes_the_gram_matrix_while_it_is_exact() {
     let first_svd = taken.iter().position(|name| *name == "svd").expect("small modes need svd");
     assert!((6..12).contains(&first_svd), "svd from mode {first_svd}");
     assert!(taken[first_svd..].iter().all(|name| *name == "svd"));
+}
+
+/// The same with few unknowns, where the correlation in space is the smaller one.
+#[test]
+fn auto_takes_the_smaller_correlation() {
+    let w = Identity::new(M);
+    let sigma: Vec<f64> = (0..M).map(|k| 10_f64.powf(-0.5 * k as f64)).collect();
+    let x = snapshots(with_singular_values(&sigma, (M, N), &w, 21));
+    for (modes, expected) in [(4, "direct"), (26, "svd")] {
+        let basis = auto(&x, &w, &ask(modes)).expect("a decomposition");
+        assert_eq!((basis.algorithm, basis.size()), (expected, modes));
+        for (got, known) in basis.singular_values.iter().zip(&sigma) {
+            let error = (got / known - 1.0).abs();
+            assert!(error < 1e-6_f64.max(1e-15 / known), "{known:e} is off by {error:e}");
+        }
+    }
 }
 
 /// Three waves and nothing else: the others asked for are not invented.

@@ -21,12 +21,6 @@ pub fn grid_modes(nodes: &[f64], count: usize) -> Mat<f64> {
     })
 }
 
-/// Smooth modes, which know of no interface.
-pub fn smooth_modes(nodes: &[f64], count: usize) -> Mat<f64> {
-    let end = nodes[nodes.len() - 1];
-    orthonormal(nodes, 1, count, |k, x| ((k as f64 + 0.5) * std::f64::consts::PI * x / end).sin())
-}
-
 /// Modes that vanish at both ends of the reference frame.
 pub fn reference_modes(nodes: &[f64], degree: usize, count: usize) -> Mat<f64> {
     let power = |k| i32::try_from(k).expect("a few modes");
@@ -34,7 +28,7 @@ pub fn reference_modes(nodes: &[f64], degree: usize, count: usize) -> Mat<f64> {
 }
 
 /// The functions `f(k, x)`, k < `count`, made orthonormal one after the other, twice.
-fn orthonormal(
+pub fn orthonormal(
     nodes: &[f64],
     degree: usize,
     count: usize,
@@ -49,7 +43,9 @@ fn orthonormal(
                 mode.iter_mut().zip(earlier).for_each(|(m, e)| *m -= part * e);
             }
             let length = product(nodes, degree, &mode, &mode).sqrt();
-            mode.iter_mut().for_each(|m| *m /= length);
+            for value in &mut mode {
+                *value /= length;
+            }
         }
         modes.push(mode);
     }

@@ -123,7 +123,11 @@ impl LineMesh {
         let (mut phi, mut dphi) = ([0.0; CELL_NODES], [[0.0; 2]; CELL_NODES]);
         let mut reference = [[0.0; CELL_NODES]; CELL_NODES];
         for (s, weight) in gauss_legendre(self.element.degree() + 1) {
-            self.element.tabulate([s, 0.0], &mut phi[..layout.nodes()], &mut dphi[..layout.nodes()]);
+            self.element.tabulate(
+                [s, 0.0],
+                &mut phi[..layout.nodes()],
+                &mut dphi[..layout.nodes()],
+            );
             for (row, phi_i) in reference.iter_mut().zip(phi) {
                 row.iter_mut().zip(phi).for_each(|(entry, phi_j)| *entry += weight * phi_i * phi_j);
             }

@@ -26,7 +26,8 @@ pub enum Transfer {
     /// The finite-element function itself, evaluated at the grid's nodes: as accurate as the mesh.
     FiniteElement {},
     /// Weights `d^-power` on the nearest mesh nodes at distances d: the paper's interpolation. It
-    /// keeps bounds and is first order at most.
+    /// keeps bounds and is first order; only two neighbours with power 1 on a line are second order,
+    /// being linear interpolation.
     InverseDistance {
         /// Exponent, positive; 2 unless given.
         #[serde(default = "default_power")]

@@ -143,3 +143,39 @@ impl BorderedTridiagonal {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The residual of the whole system at the solution, for entries without any symmetry.
+    #[test]
+    fn solution_satisfies_every_row() {
+        let noise = |k: usize| (k as f64 * 0.754_877_666).fract() - 0.5;
+        for n in [2, 3, 40] {
+            let mut system = BorderedTridiagonal::new(n);
+            for c in 0..n {
+                let entry = |k: usize| noise(9 * c + k);
+                let vertex = [[2.0 + entry(1), entry(2)], [entry(3), 2.0 + entry(4)]];
+                system.matrices[c] = CellMatrix { vertex, border: [entry(5), entry(6)] };
+                system.residuals[c] = [entry(7), entry(8)];
+            }
+            let row = BorderRow { neighbour: 0.7, diagonal: -3.0, residual: 0.2 };
+            system.solve(row);
+            let delta = system.solution();
+            assert_eq!((delta.len(), delta[0]), (n + 1, 0.0));
+            for i in 1..n {
+                let [left, right] = [&system.matrices[i - 1], &system.matrices[i]];
+                let tridiagonal = left.vertex[1][0] * delta[i - 1]
+                    + (left.vertex[1][1] + right.vertex[0][0]) * delta[i]
+                    + right.vertex[0][1] * delta[i + 1];
+                let border = (left.border[1] + right.border[0]) * delta[n];
+                let residual = system.residuals[i - 1][1] + system.residuals[i][0];
+                let sum = tridiagonal + border + residual;
+                assert!(sum.abs() < 1e-14, "n = {n}, row {i}: {sum:e}");
+            }
+            let last = row.neighbour * delta[n - 1] + row.diagonal * delta[n] + row.residual;
+            assert!(last.abs() < 1e-14, "n = {n}: {last:e}");
+        }
+    }
+}

@@ -86,12 +86,13 @@ pub enum PistonError {
     Step(f64),
     /// Newton's method did not converge.
     #[error(
-        "Newton's method did not converge at t = {time} s; residuals in m/s: {residuals:?}, wanted {tolerance:e}: take a shorter time step"
+        "Newton's method did not converge at t = {time} s; residuals in m/s: {}, wanted {tolerance:.1e}: take a shorter time step",
+        list(.residuals)
     )]
     NotConverged {
         /// The instant that was to be reached, in s.
         time: f64,
-        /// The residual before each iteration and after the last, in m/s.
+        /// The residual after each iteration, in m/s.
         residuals: Vec<f64>,
         /// The residual that was wanted, in m/s.
         tolerance: f64,
@@ -116,6 +117,10 @@ pub enum PistonError {
         /// The instant that was to be reached, in s.
         time: f64,
     },
+}
+
+fn list(residuals: &[f64]) -> String {
+    residuals.iter().map(|r| format!("{r:.1e}")).collect::<Vec<_>>().join(", ")
 }
 
 /// Why a checkpoint cannot be taken up.

@@ -26,7 +26,7 @@ use lumley_fem::LineMesh;
 use lumley_fem::element::{P1, P2};
 
 /// Largest number of cells: beyond it, a slip of the pen is likelier than a wish.
-const MOST_CELLS: usize = 10_000_000;
+const MOST_CELLS: usize = 1_000_000;
 
 /// The full-order piston, paper eqs. (33) and (34), on the moving mesh `x = xi X(t)`, `w = xi X'`.
 ///
@@ -116,21 +116,7 @@ impl Piston {
         forcing: Option<Box<dyn Forcing>>,
     ) -> Result<Self, PistonError> {
         parameters.check()?;
-        if !(2..=MOST_CELLS).contains(&cells) {
-            return Err(PistonError::Cells { cells, largest: MOST_CELLS });
-        }
-        let viscosity = parameters.viscosity;
-        let (mesh, fluid): (_, Box<dyn FluidEquations>) = match degree {
-            1 => {
-                let mesh = LineMesh::new(cells, &P1);
-                (mesh, Box::new(Assembly::<2>::new(&mesh, viscosity)))
-            }
-            2 => {
-                let mesh = LineMesh::new(cells, &P2);
-                (mesh, Box::new(Assembly::<3>::new(&mesh, viscosity)))
-            }
-            _ => return Err(PistonError::Degree(degree)),
-        };
+        let (mesh, fluid) = discretise(cells, degree, parameters.viscosity)?;
         let reference = mesh.uniform(0.0, 1.0);
         let u = reference.iter().map(|&xi| parameters.initial_velocity_at(xi)).collect();
         let now = Instant {
@@ -158,7 +144,7 @@ impl Piston {
         Ok(piston)
     }
 
-    /// Finds the accelerations of the initial state: they obey the equations, too, and they are linear.
+    /// Finds the accelerations of the initial state, in which the equations are linear.
     fn start(&mut self) -> Result<(), PistonError> {
         let variation = Variation { rate: 1.0, state: 0.0 };
         self.trial.clone_from(&self.now);
@@ -263,5 +249,27 @@ impl Piston {
     /// Velocities of the fluid at these nodes, in m/s.
     pub fn velocities(&self) -> impl Iterator<Item = f64> + '_ {
         self.mesh.left_to_right().map(|node| self.now.u[node])
+    }
+}
+
+/// The mesh and the fluid's equations on it.
+fn discretise(
+    cells: usize,
+    degree: usize,
+    viscosity: f64,
+) -> Result<(LineMesh, Box<dyn FluidEquations>), PistonError> {
+    if !(2..=MOST_CELLS).contains(&cells) {
+        return Err(PistonError::Cells { cells, largest: MOST_CELLS });
+    }
+    match degree {
+        1 => {
+            let mesh = LineMesh::new(cells, &P1);
+            Ok((mesh, Box::new(Assembly::<2>::new(&mesh, viscosity))))
+        }
+        2 => {
+            let mesh = LineMesh::new(cells, &P2);
+            Ok((mesh, Box::new(Assembly::<3>::new(&mesh, viscosity))))
+        }
+        _ => Err(PistonError::Degree(degree)),
     }
 }

@@ -26,13 +26,13 @@ pub struct PistonStep {
 impl Piston {
     /// Newton-Raphson on all equations in (u, X) at once, for the trial instant.
     pub(super) fn solve(&mut self, variation: Variation) -> Result<PistonStep, PistonError> {
-        let tolerance = self.tolerance(variation);
-        let mut residuals = [0.0; MOST_ITERATIONS + 1];
-        let mut iterations = 0;
-        loop {
+        let mut residuals = [0.0; MOST_ITERATIONS];
+        let time = self.trial.time;
+        self.evaluate();
+        for iterations in 1..=MOST_ITERATIONS {
+            self.iterate(variation);
             self.evaluate();
-            let residual = self.residual(variation);
-            let time = self.trial.time;
+            let (residual, tolerance) = (self.residual(variation), self.tolerance(variation));
             if !(residual.is_finite() && tolerance.is_finite()) {
                 return Err(PistonError::NonFinite { time });
             }
@@ -40,14 +40,10 @@ impl Piston {
                 self.check_interface()?;
                 return Ok(PistonStep { iterations, residual });
             }
-            residuals[iterations] = residual;
-            if iterations == MOST_ITERATIONS {
-                let residuals = residuals.to_vec();
-                return Err(PistonError::NotConverged { time, residuals, tolerance });
-            }
-            self.iterate(variation);
-            iterations += 1;
+            residuals[iterations - 1] = residual;
         }
+        let (residuals, tolerance) = (residuals.to_vec(), self.tolerance(variation));
+        Err(PistonError::NotConverged { time, residuals, tolerance })
     }
 
     /// Evaluates the equations of the fluid.
@@ -123,6 +119,44 @@ impl Piston {
         let domain_length = self.parameters.domain_length;
         if !(position > 0.0 && position < domain_length) {
             return Err(PistonError::InterfaceLeft { time, position, domain_length });
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{InitialFlow, PistonParameters, TimeScheme};
+    use lumley_body::joint::Prismatic;
+
+    /// Only the exact derivative squares the residual; each term of it matters in this long step.
+    #[test]
+    fn convergence_is_quadratic() -> Result<(), PistonError> {
+        let parameters = PistonParameters {
+            viscosity: 0.05,
+            domain_length: 2.0,
+            force_factor: 3.0,
+            joint: Prismatic { mass: 0.5, stiffness: 20.0, damping: 0.4, rest_length: 0.7 },
+            initial_position: 0.9,
+            initial_velocity: 0.5,
+            initial_flow: InitialFlow::Sine(0.4),
+        };
+        for degree in [1, 2] {
+            let mut piston = Piston::new(&parameters, 12, degree, TimeScheme::ImplicitEuler)?;
+            let variation = piston.predict(0.05);
+            let mut residuals = Vec::new();
+            piston.evaluate();
+            for _ in 0..4 {
+                residuals.push(piston.residual(variation));
+                piston.iterate(variation);
+                piston.evaluate();
+            }
+            let order = |k: usize| {
+                let gain = |k: usize| (residuals[k + 1] / residuals[k]).ln();
+                gain(k + 1) / gain(k)
+            };
+            assert!(order(1) > 1.8, "degree {degree}: {residuals:?}");
         }
         Ok(())
     }

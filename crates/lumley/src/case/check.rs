@@ -7,9 +7,11 @@ use lumley_fem::UniformGrid;
 use lumley_fem::transfer::Transfer;
 use lumley_fom::{InitialFlow, PistonParameters};
 use lumley_pod::{ALGORITHMS, Truncation};
-use std::fmt::Display;
+use std::fmt::{self, Display};
 use std::path::Path;
 
+/// Most snapshots, and most steps between two.
+const MOST: f64 = 1e9;
 /// Largest array that a case may ask for, in bytes: beyond it, a slip of the pen is likelier than a wish.
 const LARGEST: f64 = 1e12;
 
@@ -71,16 +73,25 @@ impl Ask<'_> {
 
     fn positive(&self, key: &str, value: f64, unit: &str) -> Result<(), CaseError> {
         let expected = format!("a positive, finite number in {unit}");
-        self.that(value.is_finite() && value > 0.0, key, value, &expected)
+        self.that(value.is_finite() && value > 0.0, key, Number(value), &expected)
     }
 
     fn not_negative(&self, key: &str, value: f64, unit: &str) -> Result<(), CaseError> {
         let expected = format!("zero or a positive, finite number in {unit}");
-        self.that(value.is_finite() && value >= 0.0, key, value, &expected)
+        self.that(value.is_finite() && value >= 0.0, key, Number(value), &expected)
     }
 
     fn finite(&self, key: &str, value: f64, unit: &str) -> Result<(), CaseError> {
-        self.that(value.is_finite(), key, value, &format!("a finite number in {unit}"))
+        self.that(value.is_finite(), key, Number(value), &format!("a finite number in {unit}"))
+    }
+}
+
+/// A number in its shortest form: 1e300, not three hundred digits.
+struct Number(f64);
+
+impl Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}", self.0)
     }
 }
 
@@ -96,7 +107,7 @@ fn piston(ask: &Ask, file: &CaseFile, folder: &Path) -> Result<PistonParameters,
     ask.positive("piston.domain_length", p.domain_length, "m")?;
     let inside = format!("the piston inside the domain: 0 < X(0) < {} m", p.domain_length);
     let x = p.initial_position;
-    ask.that(x > 0.0 && x < p.domain_length, "piston.initial_position", x, &inside)?;
+    ask.that(x > 0.0 && x < p.domain_length, "piston.initial_position", Number(x), &inside)?;
     Ok(PistonParameters {
         viscosity: p.viscosity,
         domain_length: p.domain_length,
@@ -131,19 +142,22 @@ fn initial_flow(ask: &Ask, flow: &FlowSection, folder: &Path) -> Result<InitialF
 
 fn schedule(ask: &Ask, file: &CaseFile, key: &str, step: f64) -> Result<Schedule, CaseError> {
     let (end, interval) = (file.time.end, file.record.interval);
-    ask.positive("time.end", end, "s")?;
     ask.positive("record.interval", interval, "s")?;
+    ask.positive("time.end", end, "s")?;
     ask.positive(key, step, "s")?;
-    ask.that(
-        Schedule::new(interval, interval, end).is_some(),
-        "record.interval",
-        interval,
-        &format!("a whole fraction of time.end = {end} s, such as {}", end / (end / interval).ceil()),
-    )?;
+    let most = format!("at most {MOST:e} times record.interval = {interval:?} s");
+    ask.that(end / interval <= MOST, "time.end", Number(end), &most)?;
+    let least = format!("at least {:e} times record.interval = {interval:?} s", 1.0 / MOST);
+    ask.that(interval / step <= MOST, key, Number(step), &least)?;
+    if Schedule::new(interval, interval, end).is_none() {
+        let near = end / (end / interval).ceil();
+        let expected = format!("a whole fraction of time.end = {end:?} s, such as {near:?}");
+        return Err(ask.refuse("record.interval", Number(interval), &expected));
+    }
     Schedule::new(step, interval, end).ok_or_else(|| {
         let near = interval / (interval / step).ceil();
-        let expected = format!("a whole fraction of record.interval = {interval} s, such as {near}");
-        ask.refuse(key, step, &expected)
+        let expected = format!("a whole fraction of record.interval = {interval:?} s, such as {near:?}");
+        ask.refuse(key, Number(step), &expected)
     })
 }
 
@@ -187,7 +201,7 @@ fn pod(ask: &Ask, pod: &PodSection) -> Result<PodChoice, CaseError> {
         (None, energy) => {
             let share = energy.unwrap_or(0.9999);
             let expected = "a share of the energy above 0 and at most 1, such as 0.9999";
-            ask.that(share > 0.0 && share <= 1.0, "pod.energy", share, expected)?;
+            ask.that(share > 0.0 && share <= 1.0, "pod.energy", Number(share), expected)?;
             Truncation::Energy(share)
         }
     };

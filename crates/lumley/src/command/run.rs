@@ -7,6 +7,7 @@ use crate::run::{self, Task};
 use crate::summary::Summary;
 use clap::Args;
 use std::path::PathBuf;
+use std::time::Duration;
 
 #[derive(Args)]
 pub(super) struct Arguments {
@@ -25,6 +26,9 @@ pub(super) struct Arguments {
     /// Threads; by default all
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// Least time between checkpoints, in s
+    #[arg(long, value_name = "SECONDS", default_value_t = 5)]
+    checkpoint: u64,
     #[command(flatten)]
     output: Output,
 }
@@ -36,6 +40,7 @@ impl Arguments {
         let target = named.unwrap_or_else(|| default_target(&case.name, self.resume));
         let mut task = Task::new(target, self.output.existing(self.resume));
         task.threads = self.threads.map_or(task.threads, usize::from);
+        task.checkpoint = Duration::from_secs(self.checkpoint);
         let (directory, summary) = run::run(&case, &task, progress)?;
         if self.output.json {
             say(&summary.to_json());
@@ -57,7 +62,7 @@ pub(super) fn headline(summary: &Summary) {
             _ => "blew up".to_owned(),
         };
         let speedup = model.speedup.map_or(String::new(), |s| {
-            format!(", {:.0} times faster than a full model as accurate", s.ratio)
+            format!(", {:.1} times as fast as a full model no less accurate", s.ratio)
         });
         say(&format!("{:<28} {modes} modes: {what}{speedup}", model.label));
     }

@@ -131,39 +131,52 @@ pub struct SeriesDescription {
 impl Description {
     /// Whether such a record can be made at `path`, which messages name.
     pub(super) fn check(&self, path: &Path) -> Result<(), RecordError> {
-        let invalid = |key: String, value: String, expected: &str| {
-            Err(RecordError::Invalid { path: path.into(), key, value, expected: expected.into() })
-        };
-        if self.frames.is_empty() {
-            return invalid("frames".into(), "empty".into(), "at least one frame");
-        }
-        let frames = self.frames.iter().map(|frame| ("frames", &frame.name, &frame.components));
-        let series = self.series.iter().map(|series| ("series", &series.name, &series.entries));
-        let mut seen = Vec::new();
-        for (kind, name, quantities) in frames.chain(series) {
-            if !is_name(name) {
-                return invalid(format!("name in {kind}"), format!("{name:?}"), NAME);
-            }
-            if seen.contains(&(kind, name)) {
-                return invalid(format!("name in {kind}"), format!("{name:?} twice"), "each once");
-            }
-            if quantities.is_empty() {
-                return invalid(format!("{kind}.{name}"), "empty".into(), "at least one quantity");
-            }
-            seen.push((kind, name));
-        }
+        let frames = self.frames.iter().map(|frame| (&frame.name, &frame.components));
+        let series = self.series.iter().map(|series| (&series.name, &series.entries));
+        check_parts(path, "frames", frames)?;
+        check_parts(path, "series", series)?;
         for frame in &self.frames {
             if let Support::Nodes(nodes) = &frame.support {
                 let finite = nodes.iter().flatten().all(|x| x.is_finite());
                 if nodes.is_empty() || !finite {
                     let key = format!("frames.{}.support", frame.name);
                     let value = format!("{} nodes", nodes.len());
-                    return invalid(key, value, "at least one node, and finite coordinates");
+                    return invalid(path, key, value, "at least one node, finite coordinates");
                 }
             }
         }
         Ok(())
     }
+}
+
+/// Whether these frames or series can be: they name folders, so that nothing may lead out of the record.
+pub(super) fn check_parts<'a>(
+    path: &Path,
+    kind: &str,
+    parts: impl Iterator<Item = (&'a String, &'a Vec<Quantity>)>,
+) -> Result<(), RecordError> {
+    let mut seen = Vec::new();
+    for (name, quantities) in parts {
+        let key = format!("name in {kind}");
+        if !is_name(name) {
+            return invalid(path, key, format!("{name:?}"), NAME);
+        }
+        if seen.contains(&name) {
+            return invalid(path, key, format!("{name:?} twice"), "each name once");
+        }
+        if quantities.is_empty() {
+            return invalid(path, format!("{kind}.{name}"), "empty".into(), "a quantity");
+        }
+        seen.push(name);
+    }
+    if kind == "frames" && seen.is_empty() {
+        return invalid(path, kind.into(), "empty".into(), "at least one frame");
+    }
+    Ok(())
+}
+
+fn invalid(path: &Path, key: String, value: String, expected: &str) -> Result<(), RecordError> {
+    Err(RecordError::Invalid { path: path.into(), key, value, expected: expected.into() })
 }
 
 const NAME: &str = "1 to 64 letters, digits, `-` or `_`";

@@ -121,3 +121,37 @@ fn parts(range: &Range<usize>, length: usize) -> Range<usize> {
 fn overlap(range: &Range<usize>, k: usize, length: usize) -> Range<usize> {
     range.start.max(k * length)..range.end.min((k + 1) * length)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{CACHED_CHUNKS, FrameReader};
+    use crate::record::array::Array;
+    use faer::Mat;
+
+    /// Memory is bounded: old chunks go, also when all are read in turn and again.
+    #[test]
+    fn few_chunks_are_kept() -> Result<(), Box<dyn std::error::Error>> {
+        let folder = tempfile::tempdir()?;
+        let values = Array {
+            root: folder.path().to_owned(),
+            name: "values".into(),
+            axes: ["snapshots", "rows"],
+            columns: Some(100),
+            chunk: [1, 1],
+            attributes: serde_json::Value::Null,
+        };
+        for j in 0..100 {
+            let written = values.write_chunk(0, j, [[j as f64].as_slice()].into_iter());
+            written.map_err(|(_, e)| e)?;
+        }
+        let frame = FrameReader::new(values, vec![0.0]);
+        let mut x = Mat::zeros(100, 1);
+        for _ in 0..2 {
+            frame.read_block(0..100, 0..1, x.as_mut())?;
+            let kept = frame.cache.lock().expect("no thread panicked").len();
+            assert!(kept <= CACHED_CHUNKS, "{kept} chunks are kept");
+        }
+        assert_eq!(x, Mat::from_fn(100, 1, |i, _| i as f64));
+        Ok(())
+    }
+}

@@ -1,4 +1,5 @@
 use super::array::{read_text, write_json};
+use super::description::check_parts;
 use super::{Description, FrameDescription, Quantity, RecordError, SeriesDescription, Support};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
@@ -138,6 +139,7 @@ impl Metadata {
             return Err(RecordError::MetadataChecksum { path, stored, computed });
         }
         check_group(root, &metadata.attributes())?;
+        metadata.check_parts(&path)?;
         metadata.check_sizes(&path)?;
         Ok(metadata)
     }
@@ -150,6 +152,13 @@ impl Metadata {
     fn checksum(&self) -> String {
         let text = serde_json::to_vec(self).expect("strings and integers become JSON");
         format!("{:08x}", crc32c::crc32c(&text))
+    }
+
+    fn check_parts(&self, path: &Path) -> Result<(), RecordError> {
+        let frames = self.frames.iter().map(|frame| (&frame.name, &frame.components));
+        let series = self.series.iter().map(|series| (&series.name, &series.entries));
+        check_parts(path, "frames", frames)?;
+        check_parts(path, "series", series)
     }
 
     /// Refuses sizes that no record has, before anything is allocated or computed with them.

@@ -88,7 +88,6 @@ impl Record {
         let metadata = Metadata::read(root)?;
         let layout = Layout::new(root, &metadata);
         let description = layout.describe(&metadata)?;
-        description.check(root)?;
         layout.check(&metadata)?;
         let times = layout.times.read_rows(metadata.snapshots)?;
         check_times(&times, root)?;

@@ -1,10 +1,15 @@
+use super::advance;
 use super::compare::Comparison;
 use super::ground::Ground;
 use super::simulate::{fixed, full_order};
-use super::advance;
 use crate::Error;
 use crate::case::{Case, Schedule};
+use crate::model::Model;
 use crate::summary::{Reduced, Speedup, Variant};
+use lumley_rom::ModelChoice;
+
+/// Share of its error that a reduced model may lose to a longer step.
+const LOSS: f64 = 0.02;
 
 /// Coarser full-order models of the same scheme, each cheaper than all that are more accurate, as far as
 /// the most accurate of the reduced models.
@@ -20,44 +25,76 @@ pub(super) fn variants(ground: &Ground, reduced: &[Reduced]) -> Result<Vec<Varia
         if best(&variants) <= strictest || strictest.is_infinite() {
             break;
         }
-        let variant = measure(ground, cells, steps)?;
+        let model = full_order(&Case { cells, ..ground.case.clone() })?;
+        let variant = measure(ground, model, cells, &with_steps(&ground.case.schedule, steps))?;
         variants.extend(variant.filter(|v| v.res_percent < best(&variants)));
     }
     Ok(variants)
 }
 
-/// The cheapest of `variants` that is no less accurate than `model`, beside it.
-pub(super) fn speedup(case: &Case, model: &Reduced, variants: &[Variant]) -> Option<Speedup> {
-    let res_percent = model.shown_res()?;
-    let reduced_ms = model.shown_step_us()? * case.rom_schedule.steps() as f64 / 1e3;
+/// The shown run of `model` with the longest step that keeps its accuracy, beside the cheapest of
+/// `variants` that is no less accurate.
+pub(super) fn speedup(
+    ground: &Ground,
+    choice: &ModelChoice,
+    model: &Reduced,
+    variants: &[Variant],
+) -> Result<Option<Speedup>, Error> {
+    let (Some(res_percent), Some(modes)) = (model.shown_res(), model.shown) else { return Ok(None) };
     let accurate = variants.iter().filter(|variant| variant.res_percent <= res_percent);
-    let full = *accurate.min_by(|a, b| a.milliseconds().total_cmp(&b.milliseconds()))?;
-    Some(Speedup { full, reduced_ms, ratio: full.milliseconds() / reduced_ms })
+    let cheapest = accurate.min_by(|a, b| a.milliseconds().total_cmp(&b.milliseconds()));
+    let Some(full) = cheapest.copied() else { return Ok(None) };
+    let schedule = &ground.case.rom_schedule;
+    let mut longest = None;
+    for steps in halves(schedule.steps_per_snapshot) {
+        let run = measure(ground, ground.build(choice, modes)?, modes, &with_steps(schedule, steps))?;
+        match run.filter(|run| run.res_percent <= (1.0 + LOSS) * res_percent) {
+            Some(run) => longest = Some(run),
+            None => break,
+        }
+    }
+    Ok(longest.map(|reduced| {
+        let ratio = full.milliseconds() / reduced.milliseconds();
+        Speedup { reduced, full, ratio }
+    }))
 }
 
 /// Numbers of cells and of steps per snapshot, halved again and again, cheapest first; last the run's own.
 fn coarser(case: &Case) -> Vec<(usize, usize)> {
-    let halves = |n: usize| (0..).map(move |k| n >> k).take_while(|n| *n > 0);
-    let steps = || halves(case.schedule.steps_per_snapshot);
     let cells = halves(case.cells).filter(|cells| *cells >= 4);
+    let steps = || halves(case.schedule.steps_per_snapshot);
     let mut sizes: Vec<_> = cells.flat_map(|c| steps().map(move |s| (c, s))).collect();
     sizes.sort_by_key(|(cells, steps)| cells * steps);
     sizes
 }
 
-/// Runs the full-order model with other cells and steps per snapshot; `None` where it fails, as very
-/// coarse ones may.
-fn measure(ground: &Ground, cells: usize, steps: usize) -> Result<Option<Variant>, Error> {
-    let (case, Some(full)) = (ground.case, &ground.full) else { return Ok(None) };
-    let step = case.schedule.interval / steps as f64;
-    let schedule = Schedule { step, steps_per_snapshot: steps, ..case.schedule };
-    let mut model = full_order(&Case { cells, ..case.clone() })?;
-    let mut comparison = Comparison::new(fixed(case), full.as_ref(), &ground.product);
-    let work = match advance(&mut model, &schedule, 0, &mut comparison) {
+fn halves(n: usize) -> impl Iterator<Item = usize> {
+    (0..usize::BITS).map(move |k| n >> k).take_while(|n| *n > 0)
+}
+
+fn with_steps(schedule: &Schedule, steps: usize) -> Schedule {
+    Schedule { step: schedule.interval / steps as f64, steps_per_snapshot: steps, ..*schedule }
+}
+
+/// Runs `model` and compares it with the run; `None` where it fails, as very coarse ones may.
+fn measure<M: Model>(
+    ground: &Ground,
+    mut model: M,
+    size: usize,
+    schedule: &Schedule,
+) -> Result<Option<Variant>, Error> {
+    let Some(full) = &ground.full else { return Ok(None) };
+    let mut comparison = Comparison::new(fixed(ground.case), full.as_ref(), &ground.product);
+    let work = match advance(&mut model, schedule, 0, &mut comparison) {
         Ok(work) => work,
         Err(Error::Step(_)) => return Ok(None),
         Err(other) => return Err(other),
     };
-    let (step_us, steps) = (work.step_us().unwrap_or_default(), schedule.steps());
-    Ok(Some(Variant { cells, step, steps, step_us, res_percent: comparison.percent() }))
+    Ok(Some(Variant {
+        size,
+        step: schedule.step,
+        steps: schedule.steps(),
+        step_us: work.step_us().unwrap_or_default(),
+        res_percent: comparison.percent(),
+    }))
 }

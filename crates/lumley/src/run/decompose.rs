@@ -148,7 +148,8 @@ pub(super) fn whole(frame: &FrameReader) -> Result<Mat<f64>, Error> {
     Ok(x)
 }
 
-/// POD of u - X' xi in L2(0, 1).
+/// POD of u - X' xi in L2(0, 1). It vanishes at both ends, and so do the modes, to the last bit: the end
+/// nodes are no unknowns.
 fn reference(
     case: &Case,
     record: &Record,
@@ -157,12 +158,6 @@ fn reference(
 ) -> Result<Decomposed, Error> {
     let mesh = LineMesh::new(case.cells, if case.degree == 1 { &P1 } else { &P2 });
     let nodes = mesh.uniform(0.0, 1.0);
-    // Records list the nodes from left to right, meshes their vertices first.
-    let mut place = vec![0; mesh.nodes()];
-    mesh.left_to_right().enumerate().for_each(|(k, node)| place[node] = k);
-    let mass = mesh.mass_matrix(&nodes).into_iter().map(|(i, j, m)| (place[i], place[j], m));
-    let product = SparseSpd::from_triplets(mesh.nodes(), &mass.collect::<Vec<_>>());
-    let product = product.expect("a mass matrix is symmetric positive definite");
     let xi: Vec<f64> = mesh.left_to_right().map(|node| nodes[node]).collect();
     let u = record.frame("reference")?;
     let velocities = record.series("velocity")?;
@@ -172,6 +167,30 @@ fn reference(
             *u -= velocities.at(k)[0] * xi;
         }
     }
-    let x = MemorySnapshots::new(x, u.times().to_vec());
-    Decomposed::with_sweep(&x, &product, &case.pod, threads).map_err(Error::pod(path))
+    let inside = x.subrows(1, x.nrows() - 2).to_owned();
+    let x = MemorySnapshots::new(inside, u.times().to_vec());
+    let found = Decomposed::with_sweep(&x, &inner_mass(&mesh, &nodes), &case.pod, threads);
+    let mut found = found.map_err(Error::pod(path))?;
+    let modes = &found.basis.modes;
+    let mut padded = Mat::zeros(xi.len(), modes.ncols());
+    padded.subrows_mut(1, modes.nrows()).copy_from(modes);
+    found.basis.modes = padded;
+    if let Some(mean) = &mut found.basis.mean {
+        mean.insert(0, 0.0);
+        mean.push(0.0);
+    }
+    Ok(found)
+}
+
+/// The mass matrix of all nodes but the first and the last, from left to right.
+fn inner_mass(mesh: &LineMesh, nodes: &[f64]) -> SparseSpd {
+    // Records list the nodes from left to right, meshes their vertices first.
+    let mut place = vec![0; mesh.nodes()];
+    mesh.left_to_right().enumerate().for_each(|(k, node)| place[node] = k);
+    let inner = mesh.nodes() - 2;
+    let inside = |node: usize| place[node].checked_sub(1).filter(|k| *k < inner);
+    let mass = mesh.mass_matrix(nodes).into_iter();
+    let mass = mass.filter_map(|(i, j, m)| Some((inside(i)?, inside(j)?, m)));
+    let product = SparseSpd::from_triplets(inner, &mass.collect::<Vec<_>>());
+    product.expect("a mass matrix is symmetric positive definite")
 }

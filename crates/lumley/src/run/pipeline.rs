@@ -13,6 +13,7 @@ use crate::record::Record;
 use crate::summary::{FullOrder, Projection, SUMMARY, Snapshots, Summary};
 use lumley_fom::InitialFlow;
 use std::path::PathBuf;
+use std::time::Duration;
 
 /// Name of the resolved case file in a run directory.
 pub const CASE: &str = "case.toml";
@@ -34,13 +35,15 @@ pub struct Task {
     pub existing: Existing,
     /// Threads of the decomposition and of the reduced models.
     pub threads: usize,
+    /// Least time between checkpoints of the full-order model.
+    pub checkpoint: Duration,
 }
 
 impl Task {
-    /// A run into `target` with all threads of this machine.
+    /// A run into `target` with all threads of this machine and a checkpoint every five seconds.
     pub fn new(target: PathBuf, existing: Existing) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { target, existing, threads }
+        Self { target, existing, threads, checkpoint: Duration::from_secs(5) }
     }
 }
 
@@ -56,7 +59,7 @@ pub fn run(
 ) -> Result<(PathBuf, Summary), Error> {
     let place = Workplace::claim(&task.target, task.existing)?;
     let mut manifest = begin(case, &place)?;
-    let work = simulate(case, &place, progress)?;
+    let work = simulate(case, &place, task.checkpoint, progress)?;
     let (steps, us) = (work.steps, work.step_us().unwrap_or_default());
     manifest.stage("full-order model", progress.end(&format!("{steps} steps of {us:.1} µs")));
 
@@ -169,8 +172,8 @@ pub(super) fn full_order_cost(
 ) -> Result<(), Error> {
     progress.begin("cost", 1);
     let variants = cost::variants(ground, &summary.rom)?;
-    for model in &mut summary.rom {
-        model.speedup = cost::speedup(ground.case, model, &variants);
+    for (choice, model) in ground.case.models.iter().zip(&mut summary.rom) {
+        model.speedup = cost::speedup(ground, choice, model, &variants)?;
     }
     let beside = format!("{} coarser full-order models beside", variants.len());
     summary.fom = Some(FullOrder {

@@ -158,7 +158,7 @@ fn variants(summary: &Summary) -> Vec<FomVariant> {
 
 fn variant(variant: &Variant) -> FomVariant {
     FomVariant {
-        cells: variant.cells,
+        cells: variant.size,
         dt: variant.step,
         steps: variant.steps,
         step_us: variant.step_us,

@@ -41,7 +41,7 @@ pub fn rerun(
     let mut work = None;
     let mut record = None;
     if compare {
-        work = Some(simulate(&case, &place, progress)?);
+        work = Some(simulate(&case, &place, task.checkpoint, progress)?);
         manifest.stage("full-order model", progress.end("beside the reduced models"));
         record = Some(Record::open(place.path().join("record"))?);
     } else if before.piston == case.piston && before.schedule.interval == case.schedule.interval {

@@ -16,8 +16,6 @@ use std::time::{Duration, Instant};
 const CHECKPOINT: &str = "checkpoint";
 /// Where the velocity is probed, in m.
 const MIDDLE: f64 = 0.5;
-/// Least time between checkpoints.
-const BETWEEN: Duration = Duration::from_secs(5);
 
 /// The full-order model of `case`, at its initial state.
 ///
@@ -27,10 +25,12 @@ pub fn full_order(case: &Case) -> Result<Piston, Error> {
     Ok(Piston::new(&case.piston, case.cells, case.degree, case.scheme)?)
 }
 
-/// Runs the full-order model of `case` into `place`/record, from the checkpoint when there is one.
+/// Runs the full-order model of `case` into `place`/record, from the checkpoint when there is one, with
+/// checkpoints at least `between` apart.
 pub(super) fn simulate(
     case: &Case,
     place: &Workplace,
+    between: Duration,
     progress: &mut Progress,
 ) -> Result<Work, Error> {
     let mut model = full_order(case)?;
@@ -45,7 +45,7 @@ pub(super) fn simulate(
             (Recorder::create(&folder, case, plan, &model)?, 0)
         }
     };
-    let mut observer = Keeper { recorder, place, progress, saved: Instant::now() };
+    let mut observer = Keeper { recorder, place, progress, between, saved: Instant::now() };
     let work = advance(&mut model, schedule, first, &mut observer)?;
     observer.recorder.finish()?;
     let checkpoint = place.path().join(CHECKPOINT);
@@ -102,6 +102,7 @@ struct Keeper<'a> {
     recorder: Recorder<Piston>,
     place: &'a Workplace,
     progress: &'a mut Progress,
+    between: Duration,
     saved: Instant,
 }
 
@@ -110,7 +111,7 @@ impl Observer<Piston> for Keeper<'_> {
         self.recorder.observe(model, snapshot)?;
         let time = Model::time(model);
         self.progress.advance(snapshot, &format!("t = {time:.3} s, X = {:.4} m", model.interface()));
-        if self.saved.elapsed() >= BETWEEN {
+        if self.saved.elapsed() >= self.between {
             self.recorder.flush()?;
             let mut bytes = (snapshot as u64 + 1).to_le_bytes().to_vec();
             let path = self.place.path().join(CHECKPOINT);

@@ -112,3 +112,17 @@ fn compressed_arrays_are_refused() -> Outcome {
     assert!(error.to_string().contains("numpy.savez "), "{error}");
     Ok(())
 }
+
+/// A directory that claims 8 MiB, in a file of some hundred bytes.
+#[test]
+fn claimed_sizes_do_not_allocate() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = archive(folder.path())?;
+    let mut bytes = std::fs::read(&path)?;
+    let end = bytes.len() - 22;
+    bytes[end + 12..end + 16].copy_from_slice(&(1_u32 << 23).to_le_bytes());
+    replace(&path, &bytes)?;
+    let error = read(&path).expect_err("a directory beyond the file");
+    assert!(matches!(error, FormatError::Bytes { .. }), "{error}");
+    Ok(())
+}

@@ -1,8 +1,10 @@
 use super::lift::{Parts, finish};
 use crate::ensemble::Ensemble;
 use crate::product::{Columns, add_symmetric, block, mirror, panels, transposed_product};
+use crate::spectrum::Spectrum;
 use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense};
 use faer::Mat;
+use std::ops::Range;
 
 /// POD by the classical direct method, paper eqs. (2)-(3) (Lumley, 1967).
 ///
@@ -26,41 +28,57 @@ pub fn direct(
     options: &Options,
 ) -> Result<ReducedBasis, PodError> {
     let ensemble = Ensemble::new(x, w, options)?;
+    finish_in_space(&ensemble, correlation_in_space(&ensemble)?)
+}
+
+/// Eigenvalues and eigenvectors `psi`, n x n, of the correlation in space.
+pub(super) struct Spatial {
+    pub spectrum: Spectrum,
+    psi: Mat<f64>,
+}
+
+pub(super) fn correlation_in_space(ensemble: &Ensemble<'_>) -> Result<Spatial, PodError> {
     let (n, m) = ensemble.shape();
     let remedy = "take `snapshots` or `svd`, or raise the limit";
     ensemble.check_memory("the n x n correlation", 3 * 8 * (n as u128).pow(2), remedy)?;
-    let (mut lambda, psi) = dense::eigen_descending(correlation_in_space(&ensemble)?.as_ref())?;
-    lambda.truncate(n.min(m));
-    let spectrum = ensemble.spectrum(lambda, n as f64 * f64::EPSILON, false)?;
-    let (kept, note) = spectrum.keep(options.truncation);
-    let mut modes = psi.subcols(0, kept).to_owned();
-    let coefficients = coefficients(&ensemble, &modes)?;
-    w.unfactor(0, modes.as_mut());
-    Ok(finish("direct", &ensemble, spectrum, Parts { modes, coefficients, note }))
-}
-
-fn correlation_in_space(ensemble: &Ensemble<'_>) -> Result<Mat<f64>, PodError> {
-    let (n, m) = ensemble.shape();
     let mut correlation = Mat::zeros(n, n);
     for cols in panels(m) {
-        let mut z = block(ensemble, 0..n, cols)?;
-        ensemble.product.factor(0, z.as_mut());
-        add_symmetric(correlation.as_mut(), z.as_ref());
+        add_symmetric(correlation.as_mut(), weighted(ensemble, cols)?.as_ref());
     }
     mirror(&mut correlation);
     correlation *= faer::Scale(1.0 / m as f64);
-    Ok(correlation)
+    let (mut lambda, psi) = dense::eigen_descending(correlation.as_ref())?;
+    lambda.truncate(n.min(m));
+    Ok(Spatial { spectrum: ensemble.spectrum(lambda, n as f64 * f64::EPSILON, false)?, psi })
+}
+
+pub(super) fn finish_in_space(
+    ensemble: &Ensemble<'_>,
+    spatial: Spatial,
+) -> Result<ReducedBasis, PodError> {
+    let Spatial { spectrum, psi } = spatial;
+    let (kept, note) = spectrum.keep(ensemble.options.truncation);
+    let mut modes = psi.subcols(0, kept).to_owned();
+    let coefficients = coefficients(ensemble, &modes)?;
+    ensemble.product.unfactor(0, modes.as_mut());
+    Ok(finish("direct", ensemble, spectrum, Parts { modes, coefficients, note }))
 }
 
 /// `(u, Phi) = (F u)ᵀ psi`.
 fn coefficients(ensemble: &Ensemble<'_>, psi: &Mat<f64>) -> Result<Mat<f64>, PodError> {
-    let (n, m) = ensemble.shape();
+    let (_, m) = ensemble.shape();
     let mut a = Mat::zeros(psi.ncols(), m);
     for cols in panels(m) {
-        let mut z = block(ensemble, 0..n, cols.clone())?;
-        ensemble.product.factor(0, z.as_mut());
+        let z = weighted(ensemble, cols.clone())?;
         let of_panel = transposed_product(psi.as_ref(), z.as_ref());
         a.subcols_mut(cols.start, cols.len()).copy_from(of_panel);
     }
     Ok(a)
+}
+
+/// `F X` of some columns.
+fn weighted(ensemble: &Ensemble<'_>, cols: Range<usize>) -> Result<Mat<f64>, PodError> {
+    let mut z = block(ensemble, 0..ensemble.shape().0, cols)?;
+    ensemble.product.factor(0, z.as_mut());
+    Ok(z)
 }

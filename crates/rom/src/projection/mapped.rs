@@ -1,4 +1,4 @@
-use super::quadratic::{multiply, pairs, subtract_contraction};
+use super::quadratic::{entries, entry_count, multiply, subtract_contraction};
 use super::{Projection, Response, subtract_viscous};
 use crate::basis::{Basis, dot};
 use crate::closure::ClosureKind;
@@ -49,7 +49,7 @@ impl Mapped {
             frozen,
             mass: vec![0.0; n * n],
             stiffness: vec![0.0; n * n],
-            convection: vec![0.0; n * n * (n + 1) / 2],
+            convection: vec![0.0; entry_count(n)],
             moment,
             stiff_mass,
             viscous: vec![0.0; n],
@@ -66,11 +66,10 @@ impl Mapped {
             self.mass[k] += weight * phi[k / n] * phi[k % n];
             self.stiffness[k] += weight * slope[k / n] * slope[k % n];
         }
-        for ((m, p), entries) in pairs(n).zip(self.convection.chunks_exact_mut(n)) {
-            let half = if m == p { 0.5 } else { 1.0 };
-            let growth = half * weight * (phi[m] * slope[p] + phi[p] * slope[m]);
-            for (entry, test) in entries.iter_mut().zip(phi) {
-                *entry += growth * test;
+        for (entry, (i, m, p)) in self.convection.iter_mut().zip(entries(n)) {
+            if i < n {
+                let half = if m == p { 0.5 } else { 1.0 };
+                *entry += weight * half * phi[i] * (phi[m] * slope[p] + phi[p] * slope[m]);
             }
         }
     }

@@ -1,4 +1,4 @@
-use super::quadratic::{multiply, pairs, subtract_contraction};
+use super::quadratic::{entries, entry_count, multiply, subtract_contraction};
 use crate::ReducedError;
 use crate::basis::Basis;
 use crate::interface::Interfacial;
@@ -28,7 +28,7 @@ pub(crate) struct PrefixTables {
 }
 
 /// The cell that the interface cuts, and the reduced velocity in it.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Cut {
     cell: usize,
     /// Part of the cell that is fluid, in (0, 1].
@@ -43,7 +43,7 @@ impl PrefixTables {
     /// The tables of the modes of `basis`.
     pub fn new(basis: &Basis) -> Result<Self, ReducedError> {
         let (width, nodes) = (basis.width(), basis.nodes().len());
-        let numbers = nodes * (width * width * (width + 3) / 2 + 2 * width);
+        let numbers = nodes * (entry_count(width) + width * (width + 2));
         if numbers > LIMIT / size_of::<f64>() {
             let mebibytes = (numbers * size_of::<f64>()) >> 20;
             return Err(ReducedError::TooLarge { modes: width, nodes, mebibytes });
@@ -56,7 +56,7 @@ impl PrefixTables {
             values: (0..nodes).flat_map(|k| basis.row(k)).copied().collect(),
             integral: vec![0.0; width],
             dissipation: vec![0.0; width * width],
-            convection: vec![0.0; width * width * (width + 1) / 2],
+            convection: vec![0.0; entry_count(width)],
         };
         for cell in 0..cells {
             tables.append(cell);
@@ -73,15 +73,15 @@ impl PrefixTables {
         grow(&mut self.integral, n, (0..n).map(|i| h * (left[i] + 0.5 * rise[i])));
         let slopes = (0..n * n).map(|k| rise[k / n] * rise[k % n] / h);
         grow(&mut self.dissipation, n * n, slopes);
-        // int Φ_n (Φ_m Φ_p)' over the cell; half of it where m = p.
-        let products = pairs(n).flat_map(|(m, p)| {
+        // int Φ_i (Φ_m Φ_p)' over the cell; half of it where m = p.
+        let products = entries(n).map(|(i, m, p)| {
             let linear = left[m] * rise[p] + left[p] * rise[m];
             let square = rise[m] * rise[p];
             let weight = if m == p { 0.5 } else { 1.0 };
-            let (flat, slanted) = (linear + square, 0.5 * linear + 2.0 / 3.0 * square);
-            left.iter().zip(&rise).map(move |(l, r)| weight * (l * flat + r * slanted))
+            let (l, r) = if i < n { (left[i], rise[i]) } else { (0.0, 0.0) };
+            weight * (l * (linear + square) + r * (0.5 * linear + 2.0 / 3.0 * square))
         });
-        grow(&mut self.convection, n * n * (n + 1) / 2, products);
+        grow(&mut self.convection, entry_count(n), products);
     }
 
     /// Finds the cut cell of `x` and fills the modes and the velocity there.
@@ -112,7 +112,7 @@ impl PrefixTables {
     /// `out_n −= int_0^X Φ_n v v' dx`.
     pub fn subtract_convection(&self, cut: &Cut, a: &[f64], out: &mut [f64]) {
         let n = self.width;
-        subtract_contraction(row(&self.convection, cut.cell, n * n * (n + 1) / 2), a, out);
+        subtract_contraction(row(&self.convection, cut.cell, entry_count(n)), a, out);
         let (t, l, r) = (cut.fraction, cut.left, cut.rise);
         let flat = r * t * (l + 0.5 * r * t);
         let slanted = r * t * t * (0.5 * l + r * t / 3.0);

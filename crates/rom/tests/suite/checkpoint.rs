@@ -1,6 +1,6 @@
 //! A model goes on from its checkpoint bit for bit, and refuses damaged ones.
 
-use crate::{MAPPED, MULTIPLIER, PENALTY, basis_for, build, physics, run};
+use crate::{MAPPED, MULTIPLIER, PENALTY, basis_for, build, grid_basis, physics, run};
 use lumley_rom::{Integrator, ReducedPiston, Rosenbrock};
 use std::error::Error;
 
@@ -49,7 +49,7 @@ fn damaged_checkpoints_are_refused_and_change_nothing() -> Result<(), Box<dyn Er
     }
     assert_eq!(bits(&piston), before);
 
-    let mut other = build(&physics(1.0), PENALTY, Integrator::Rk4 {}, &crate::grid_basis(61, 3))?;
+    let mut other = build(&physics(1.0), PENALTY, Integrator::Rk4 {}, &grid_basis(61, 3))?;
     let error = other.restore(&mut good.as_slice()).expect_err("a model of another size");
     assert!(error.to_string().contains("6 unknowns, the model 5"), "{error}");
     Ok(())

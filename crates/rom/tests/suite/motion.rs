@@ -1,12 +1,13 @@
 //! What the model computes: orders, exact solutions, samples.
 
 use crate::{
-    LENGTH, MAPPED, MULTIPLIER, PENALTY, basis_for, build, grid_basis, physics, run, start,
+    LENGTH, MAPPED, MULTIPLIER, PENALTY, basis_for, build, grid_basis, manufactured, physics, run,
+    start,
 };
 use lumley_fem::UniformGrid;
 use lumley_rom::{
-    Basis, ClosureKind, Integrator, ModelChoice, ProjectionKind, ReducedError, ReducedPiston,
-    Rosenbrock,
+    Basis, ClosureKind, Integrator, ModelChoice, Penalty, ProjectionKind, ReducedError,
+    ReducedPiston, Rosenbrock,
 };
 
 const RK4: Integrator = Integrator::Rk4 {};
@@ -34,7 +35,9 @@ fn uncoupled_block_is_the_exact_oscillator() -> Result<(), ReducedError> {
 #[test]
 fn rk4_has_order_4_on_the_coupled_piston() -> Result<(), ReducedError> {
     let coarse_grid = grid_basis(7, 3); // one cell from 0.9167 to 1.1
-    for projection in [PENALTY, MULTIPLIER, MAPPED] {
+    // A mild penalty, so that these steps are in the asymptotic range.
+    let mild = ProjectionKind::Penalty(Penalty { sigma: 3.0 });
+    for projection in [mild, MULTIPLIER, MAPPED] {
         let basis = if projection == MAPPED { basis_for(MAPPED) } else { coarse_grid.clone() };
         let state = |steps| {
             let model = ModelChoice { projection, closure: ClosureKind::default() };
@@ -52,8 +55,8 @@ fn rk4_has_order_4_on_the_coupled_piston() -> Result<(), ReducedError> {
             let gaps: Vec<f64> = state(steps)?.iter().zip(&exact).map(|(a, b)| a - b).collect();
             Ok(gaps.iter().map(|g| g * g).sum::<f64>().sqrt())
         };
-        let order = (error(1000)? / error(2000)?).log2();
-        assert!((order - 4.0).abs() < 0.15, "{projection:?}: order {order}");
+        let order = (error(200)? / error(400)?).log2();
+        assert!((order - 4.0).abs() < 0.1, "{projection:?}: order {order}");
     }
     Ok(())
 }
@@ -79,8 +82,8 @@ fn rosenbrock_agrees_with_rk4() -> Result<(), ReducedError> {
 /// On its own grid the sample is the sum of the modes; the mean of a centred basis belongs to it.
 #[test]
 fn grid_sample_is_the_sum_of_the_modes() -> Result<(), ReducedError> {
-    let nodes = crate::manufactured::nodes(LENGTH, 61);
-    let modes = crate::manufactured::grid_modes(&nodes, 3);
+    let nodes = manufactured::nodes(LENGTH, 61);
+    let modes = manufactured::grid_modes(&nodes, 3);
     let grid = UniformGrid::line(0.0, LENGTH, 61);
     let mean: Vec<f64> = nodes.iter().map(|x| 0.02 * x.min(0.9)).collect();
     let basis = Basis::on_grid(&grid, modes.as_ref(), Some(&mean))?;
@@ -113,8 +116,8 @@ fn mapped_sample_sticks_to_the_block() -> Result<(), ReducedError> {
 #[test]
 fn zero_mean_changes_nothing() -> Result<(), ReducedError> {
     for projection in [PENALTY, ProjectionKind::Corrected {}] {
-        let nodes = crate::manufactured::nodes(LENGTH, 61);
-        let modes = crate::manufactured::grid_modes(&nodes, 4);
+        let nodes = manufactured::nodes(LENGTH, 61);
+        let modes = manufactured::grid_modes(&nodes, 4);
         let grid = UniformGrid::line(0.0, LENGTH, 61);
         let centred = Basis::on_grid(&grid, modes.as_ref(), Some(&[0.0; 61]))?;
         let mut plain = build(&physics(1.0), projection, RK4, &grid_basis(61, 4))?;
@@ -131,8 +134,8 @@ fn zero_mean_changes_nothing() -> Result<(), ReducedError> {
 /// (7): the projection of a field in the span, the mean included, gives back its coefficients.
 #[test]
 fn projection_recovers_coefficients() -> Result<(), ReducedError> {
-    let nodes = crate::manufactured::nodes(1.0, 41);
-    let modes = crate::manufactured::reference_modes(&nodes, 2, 3);
+    let nodes = manufactured::nodes(1.0, 41);
+    let modes = manufactured::reference_modes(&nodes, 2, 3);
     let mean: Vec<f64> = nodes.iter().map(|x| x * (1.0 - x)).collect();
     let basis = Basis::on_reference(&nodes, 2, modes.as_ref(), Some(&mean))?;
     let a = [0.3, -0.2, 0.7];

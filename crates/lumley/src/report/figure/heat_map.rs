@@ -105,7 +105,8 @@ impl HeatMap {
         Drawing { width, height, svg }
     }
 
-    /// The height at which one unit of x is as long as one of y, at the given width.
+    /// The height at which one unit of x is as long as one of y, at the given width; very flat and
+    /// very tall fields are drawn less so.
     pub fn height_of_equal_scales(&self, width: f64) -> f64 {
         let length = |nodes: &[f64]| nodes.last().zip(nodes.first()).map_or(0.0, |(b, a)| b - a);
         let ratio = length(&self.y.1) / length(&self.x.1);

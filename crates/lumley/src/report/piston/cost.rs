@@ -53,10 +53,9 @@ fn figure(report: &PistonReport) -> Figure {
         &y,
     ));
     let chart = report.reduced.iter().enumerate().fold(chart, |chart, (k, model)| {
-        let finished = model
-            .runs
-            .iter()
-            .filter_map(|run| Some((model.steps as f64 * run.step_us * 1e-3, run.res_percent()?)));
+        let finished = model.runs.iter().filter_map(|run| {
+            Some((model.steps as f64 * run.step_us * 1e-3, run.drawn_percent()?))
+        });
         let (x, y): (Vec<f64>, Vec<f64>) = finished.unzip();
         chart.series(Series::points(&literal(&model.name), &x, &y).colour(k))
     });

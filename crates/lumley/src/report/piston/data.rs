@@ -158,6 +158,12 @@ impl RomRun {
             Outcome::BlewUp { .. } => None,
         }
     }
+
+    /// The same where a figure should show it: errors of more than ten times the velocity would
+    /// only flatten the others.
+    pub(super) fn drawn_percent(&self) -> Option<f64> {
+        self.res_percent().filter(|&res| res <= 1000.0)
+    }
 }
 
 /// All runs of one reduced model, and one of them at full length.

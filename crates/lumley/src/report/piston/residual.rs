@@ -7,13 +7,19 @@ use crate::report::literal;
 use crate::report::number::{fixed, significant};
 
 pub(super) fn section(report: &PistonReport) -> Section {
+    let mapped = match report.reference.modes.as_slice() {
+        [] => "",
+        _ => {
+            " The mapped model has modes of its own, in the frame of the moving mesh, and may fall \
+             below it."
+        }
+    };
     let section = Section::new("Error against the number of modes")
-        .paragraph(
-            "Res(*N*) is the largest error over time, in the norm of L^{2}(Ω), relative to the \
+        .paragraph(&format!(
+            "Res(*N*) is the largest error over time, in the norm of L^{{2}}(Ω), relative to the \
              largest velocity in the same norm, (32). The projection of the snapshots is the best \
-             that any model on the same modes can do; the mapped model has modes of its own, in \
-             the frame of the moving mesh, and may fall below it.",
-        )
+             that any model on the same modes can do.{mapped}"
+        ))
         .figure(figure(report))
         .table(&table(report));
     blow_ups(report).into_iter().fold(section, |section, text| section.warning(&text))
@@ -30,11 +36,12 @@ fn figure(report: &PistonReport) -> Figure {
     let chart = report.reduced.iter().enumerate().fold(chart, |chart, (k, model)| {
         let n: Vec<f64> = model.runs.iter().map(|run| run.modes as f64).collect();
         let res: Vec<f64> =
-            model.runs.iter().map(|run| run.res_percent().unwrap_or(f64::NAN)).collect();
+            model.runs.iter().map(|run| run.drawn_percent().unwrap_or(f64::NAN)).collect();
         chart.series(Series::marked(&literal(&model.name), &n, &res).colour(k))
     });
     let caption = "Error of the projection and of each reduced model. A curve that follows the \
-        projection loses nothing to the dynamics; a missing marker is a run that blew up.";
+        projection loses nothing to the dynamics; a missing marker is a run that blew up or whose \
+        error exceeds 1000 %.";
     chart.draw(400.0).figure("residual", caption)
 }
 
