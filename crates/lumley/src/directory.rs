@@ -118,12 +118,7 @@ impl Workplace {
         if existing.replace && !existing.resume {
             clear(&partial)?;
         }
-        Ok(Self {
-            target: target.to_owned(),
-            partial,
-            existing,
-            _lock: lock,
-        })
+        Ok(Self { target: target.to_owned(), partial, existing, _lock: lock })
     }
 
     /// Where files go until the run is complete.
@@ -195,7 +190,11 @@ pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), DirectoryErr
     if let Some(parent) = path.parent() {
         fs::create_dir_all(parent).map_err(io_error("create", parent))?;
     }
-    atomic::write(&path, bytes).map_err(|source| DirectoryError::Io { action: "write", path, source })
+    atomic::write(&path, bytes).map_err(|source| DirectoryError::Io {
+        action: "write",
+        path,
+        source,
+    })
 }
 
 /// The run directory of a case when none is named: `runs/NAME`, `runs/NAME-2`, ... the first free; to
@@ -206,12 +205,18 @@ pub fn default_target(name: &str, resume: bool) -> PathBuf {
         Path::new("runs").join(format!("{name}{suffix}"))
     };
     let taken = |path: &PathBuf| path.exists() || partial(path).exists();
-    let free = (1..).map(candidate).find(|path| !taken(path)).unwrap_or_else(|| candidate(1));
-    if !resume {
-        return free;
+    let mut free = candidate(1);
+    let mut unfinished = None;
+    for k in 2.. {
+        if !taken(&free) {
+            break;
+        }
+        if partial(&free).exists() {
+            unfinished = Some(free);
+        }
+        free = candidate(k);
     }
-    let unfinished = (1..).map(candidate).take_while(taken).filter(|p| partial(p).exists()).last();
-    unfinished.unwrap_or(free)
+    unfinished.filter(|_| resume).unwrap_or(free)
 }
 
 /// `path`, if it is a complete run.

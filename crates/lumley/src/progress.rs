@@ -45,12 +45,13 @@ impl Progress {
 
     /// A stage of `length` parts begins.
     pub fn begin(&mut self, stage: &str, length: usize) {
-        self.stage = stage.to_owned();
+        stage.clone_into(&mut self.stage);
         self.length = length;
         self.started = Instant::now();
         self.spoken = self.started;
         if self.loud && std::io::stderr().is_terminal() {
-            let bar = ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::stderr());
+            let bar =
+                ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::stderr());
             let style = "{prefix:>20} {wide_bar} {percent:>3} %  {per_sec}  {eta} left  {msg}";
             if let Ok(style) = ProgressStyle::with_template(style) {
                 bar.set_style(style);
@@ -84,10 +85,12 @@ impl Progress {
         seconds
     }
 
-    /// Something the person should know.
-    pub fn warn(&self, message: &str) {
+    /// What the person should know, a line each.
+    pub fn warn(&self, messages: &[String]) {
         if self.loud {
-            self.bar.suspend(|| eprintln!("{:>20}  {message}", "warning:"));
+            for message in messages {
+                self.bar.suspend(|| eprintln!("{:>20}  {message}", "warning:"));
+            }
         }
     }
 }

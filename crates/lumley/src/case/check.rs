@@ -7,6 +7,7 @@ use lumley_fem::UniformGrid;
 use lumley_fem::transfer::Transfer;
 use lumley_fom::{InitialFlow, PistonParameters};
 use lumley_pod::{ALGORITHMS, Truncation};
+use lumley_rom::ReducedError;
 use std::fmt::{self, Display};
 use std::path::Path;
 
@@ -28,11 +29,7 @@ pub(super) fn check(
     let rom_schedule = schedule_of_models(&ask, &file)?;
     sizes(&ask, &file, &schedule)?;
     let inverse_distance = inverse_distance(&ask, &file)?;
-    for (k, model) in file.rom.models.iter().enumerate() {
-        if let Err(error) = model.validate() {
-            return Err(ask.refuse(&format!("rom.models.{k}"), model.projection.name(), &error.to_string()));
-        }
-    }
+    models(&ask, &file)?;
     Ok(Case {
         name: name.to_owned(),
         piston,
@@ -67,7 +64,13 @@ impl Ask<'_> {
         }
     }
 
-    fn that(&self, ok: bool, key: &str, value: impl Display, expected: &str) -> Result<(), CaseError> {
+    fn that(
+        &self,
+        ok: bool,
+        key: &str,
+        value: impl Display,
+        expected: &str,
+    ) -> Result<(), CaseError> {
         if ok { Ok(()) } else { Err(self.refuse(key, value, expected)) }
     }
 
@@ -156,13 +159,29 @@ fn schedule(ask: &Ask, file: &CaseFile, key: &str, step: f64) -> Result<Schedule
     }
     Schedule::new(step, interval, end).ok_or_else(|| {
         let near = interval / (interval / step).ceil();
-        let expected = format!("a whole fraction of record.interval = {interval:?} s, such as {near:?}");
+        let expected =
+            format!("a whole fraction of record.interval = {interval:?} s, such as {near:?}");
         ask.refuse(key, Number(step), &expected)
     })
 }
 
 fn schedule_of_models(ask: &Ask, file: &CaseFile) -> Result<Schedule, CaseError> {
     schedule(ask, file, "rom.step", file.rom.step)
+}
+
+fn models(ask: &Ask, file: &CaseFile) -> Result<(), CaseError> {
+    for (k, model) in file.rom.models.iter().enumerate() {
+        model.validate().map_err(|error| match error {
+            ReducedError::Parameter { name, value, unit, expected } => {
+                let key = format!("rom.models.{k}.{name}");
+                ask.refuse(&key, Number(value), &format!("a number in {unit}, {expected}"))
+            }
+            other => {
+                ask.refuse(&format!("rom.models.{k}"), model.projection.name(), &other.to_string())
+            }
+        })?;
+    }
+    Ok(())
 }
 
 fn sizes(ask: &Ask, file: &CaseFile, schedule: &Schedule) -> Result<(), CaseError> {

@@ -95,12 +95,9 @@ impl Document {
 
     fn overridden(&self, error: &toml::de::Error) -> CaseError {
         // The file may be wrong by itself: then its own line is the better answer.
-        if !self.quick {
-            if let Err(own) = toml::from_str::<CaseFile>(&self.text) {
-                if own.message() == error.message() {
-                    return self.syntax(&own);
-                }
-            }
+        let own = toml::from_str::<CaseFile>(&self.text).err();
+        if let Some(own) = own.filter(|own| !self.quick && own.message() == error.message()) {
+            return self.syntax(&own);
         }
         let settings = self.settings.iter().map(|(k, v)| format!("--set {k}={v}"));
         let quick = self.quick.then(|| "[quick]".to_owned());
@@ -136,7 +133,8 @@ fn parse_setting(text: &str) -> Result<(String, Value), CaseError> {
     }
     let value = value.trim();
     // Whatever is not a TOML value is meant as a word: --set time.scheme=bdf2.
-    let parsed = toml::from_str::<Table>(&format!("v = {value}")).ok().and_then(|mut t| t.remove("v"));
+    let parsed =
+        toml::from_str::<Table>(&format!("v = {value}")).ok().and_then(|mut t| t.remove("v"));
     Ok((key.to_owned(), parsed.unwrap_or_else(|| Value::String(value.to_owned()))))
 }
 

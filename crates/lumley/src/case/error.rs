@@ -70,7 +70,9 @@ pub enum CaseError {
         help: String,
     },
     /// `--set` without `key=value`.
-    #[error("--set {text}: expected KEY=VALUE with a key such as piston.mass\n  help: write --set piston.mass=0.5")]
+    #[error(
+        "--set {text}: expected KEY=VALUE with a key such as piston.mass\n  help: write --set piston.mass=0.5"
+    )]
     Setting {
         /// What was given.
         text: String,

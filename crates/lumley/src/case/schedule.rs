@@ -49,7 +49,11 @@ impl Schedule {
 }
 
 /// `x` as a whole number of at least one, if it is one to 1e-9.
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked to be in range")]
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "checked to be in range"
+)]
 fn whole(x: f64) -> Option<usize> {
     let n = x.round();
     ((1.0..=1e15).contains(&n) && (x - n).abs() <= 1e-9 * n).then_some(n as usize)

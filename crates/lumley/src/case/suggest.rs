@@ -2,7 +2,8 @@
 pub(super) fn nearest<'a>(found: &str, known: &[&'a str]) -> Option<&'a str> {
     let distance = |word: &&str| edit_distance(found, word);
     let best = known.iter().copied().min_by_key(distance)?;
-    (edit_distance(found, best) <= found.chars().count().max(best.chars().count()) / 2).then_some(best)
+    (edit_distance(found, best) <= found.chars().count().max(best.chars().count()) / 2)
+        .then_some(best)
 }
 
 /// Insertions, deletions and substitutions between two words (Levenshtein, 1966).

@@ -30,7 +30,11 @@ impl Arguments {
         let models = case.models.len();
         let memory = 3 * record;
         say(&format!("case            {}: {}", case.name, case.file.title));
-        say(&format!("full-order      {unknowns} unknowns, {} steps of {} s", schedule.steps(), schedule.step));
+        say(&format!(
+            "full-order      {unknowns} unknowns, {} steps of {} s",
+            schedule.steps(),
+            schedule.step
+        ));
         say(&format!("record          {snapshots} snapshots of {nodes} and {unknowns} numbers"));
         say(&format!("pod             {}", case.pod.method));
         say(&format!(

@@ -38,7 +38,10 @@ impl Arguments {
 fn run_directory(path: &Path) -> Result<(), Error> {
     let (manifest, summary) = run::read_summary(path)?;
     let state = if manifest.complete { "complete" } else { "unfinished" };
-    say(&format!("run             {} of case {}, lumley {}", state, manifest.case, manifest.version));
+    say(&format!(
+        "run             {} of case {}, lumley {}",
+        state, manifest.case, manifest.version
+    ));
     for stage in &manifest.stages {
         say(&format!("{:<15} {:.2} s", stage.name, stage.seconds));
     }

@@ -48,8 +48,8 @@ enum Command {
 #[derive(Args)]
 struct Output {
     /// Directory to write; an existing one is an error
-    #[arg(short, long, value_name = "DIR")]
-    output: Option<PathBuf>,
+    #[arg(short, long = "output", value_name = "DIR")]
+    directory: Option<PathBuf>,
     /// Replace a run of lumley that stands there
     #[arg(long)]
     force: bool,

@@ -75,7 +75,7 @@ impl Arguments {
         };
         let stem = self.snapshots_file.file_stem().unwrap_or_default();
         let name = format!("{}-pod", stem.to_string_lossy());
-        let named = self.output.output.clone();
+        let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&name, false));
         let mut task = Task::new(target, self.output.existing(false));
         task.threads = self.threads.map_or(task.threads, usize::from);

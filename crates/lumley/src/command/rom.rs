@@ -28,7 +28,7 @@ impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
         let source = completed(&self.run)?;
         let name = source.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let named = self.output.output.clone();
+        let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&format!("{name}-rom"), false));
         let mut task = Task::new(target, self.output.existing(false));
         task.threads = self.threads.map_or(task.threads, usize::from);

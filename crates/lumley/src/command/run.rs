@@ -36,7 +36,7 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
         let case = Case::load(&self.case, self.quick, &self.set)?;
-        let named = self.output.output.clone();
+        let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&case.name, self.resume));
         let mut task = Task::new(target, self.output.existing(self.resume));
         task.threads = self.threads.map_or(task.threads, usize::from);

@@ -40,14 +40,17 @@ pub(super) fn speedup(
     model: &Reduced,
     variants: &[Variant],
 ) -> Result<Option<Speedup>, Error> {
-    let (Some(res_percent), Some(modes)) = (model.shown_res(), model.shown) else { return Ok(None) };
+    let (Some(res_percent), Some(modes)) = (model.shown_res(), model.shown) else {
+        return Ok(None);
+    };
     let accurate = variants.iter().filter(|variant| variant.res_percent <= res_percent);
     let cheapest = accurate.min_by(|a, b| a.milliseconds().total_cmp(&b.milliseconds()));
     let Some(full) = cheapest.copied() else { return Ok(None) };
     let schedule = &ground.case.rom_schedule;
     let mut longest = None;
     for steps in halves(schedule.steps_per_snapshot) {
-        let run = measure(ground, ground.build(choice, modes)?, modes, &with_steps(schedule, steps))?;
+        let run =
+            measure(ground, ground.build(choice, modes)?, modes, &with_steps(schedule, steps))?;
         match run.filter(|run| run.res_percent <= (1.0 + LOSS) * res_percent) {
             Some(run) => longest = Some(run),
             None => break,

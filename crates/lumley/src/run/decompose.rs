@@ -9,8 +9,8 @@ use faer::{Mat, Par};
 use lumley_fem::LineMesh;
 use lumley_fem::element::{P1, P2};
 use lumley_pod::{
-    ALGORITHMS, InnerProduct, MemorySnapshots, Note, Options, PodError, ReducedBasis, SnapshotSource, SparseSpd,
-    Truncation, projection_residuals,
+    ALGORITHMS, InnerProduct, MemorySnapshots, Note, Options, PodError, ReducedBasis,
+    SnapshotSource, SparseSpd, Truncation, projection_residuals,
 };
 use std::num::NonZero;
 use std::path::Path;

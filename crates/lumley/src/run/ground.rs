@@ -110,7 +110,8 @@ impl<'a> Ground<'a> {
             return Ok((basis, coefficients));
         }
         let velocity = self.case.piston.initial_velocity;
-        let lifted: Vec<f64> = self.nodes.iter().zip(fluid).map(|(xi, u)| u - velocity * xi).collect();
+        let lifted: Vec<f64> =
+            self.nodes.iter().zip(fluid).map(|(xi, u)| u - velocity * xi).collect();
         let basis = Basis::on_reference(&self.nodes, self.case.degree, modes, mean)?;
         let coefficients = basis.project(&lifted)?;
         Ok((basis, coefficients))

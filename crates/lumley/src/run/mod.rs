@@ -19,9 +19,9 @@ mod transfer;
 pub use basis::BasisFile;
 pub use pipeline::{Task, run};
 pub use pod::{PodInput, decompose_snapshots};
-pub use recorder::{Plan, Recorder, Gauge};
-pub use rerun::rerun;
+pub use recorder::{Gauge, Plan, Recorder};
 pub use report::{read_summary, write as write_report};
+pub use rerun::rerun;
 pub use simulate::full_order;
 
 use crate::Error;

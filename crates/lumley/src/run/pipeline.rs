@@ -52,11 +52,7 @@ impl Task {
 ///
 /// # Errors
 /// Whatever ends it; what was done so far stays in `TARGET.partial`.
-pub fn run(
-    case: &Case,
-    task: &Task,
-    progress: &mut Progress,
-) -> Result<(PathBuf, Summary), Error> {
+pub fn run(case: &Case, task: &Task, progress: &mut Progress) -> Result<(PathBuf, Summary), Error> {
     let place = Workplace::claim(&task.target, task.existing)?;
     let mut manifest = begin(case, &place)?;
     let work = simulate(case, &place, task.checkpoint, progress)?;
@@ -66,7 +62,6 @@ pub fn run(
     let record = Record::open(place.path().join("record"))?;
     progress.begin("pod", 1);
     let found = decompose(case, &record, &place, task.threads)?;
-    found.fixed.warnings(&case.pod).iter().for_each(|warning| progress.warn(warning));
     manifest.stage("pod", progress.end(&found.fixed.headline()));
 
     let full = whole(&record.frame("fixed")?)?;
@@ -117,11 +112,7 @@ pub(super) fn finish(
 }
 
 /// What the run is and what its decomposition found.
-fn summarise(
-    ground: &Ground,
-    record: &Record,
-    found: &Decompositions,
-) -> Result<Summary, Error> {
+fn summarise(ground: &Ground, record: &Record, found: &Decompositions) -> Result<Summary, Error> {
     let case = ground.case;
     Ok(Summary {
         case: case.name.clone(),
@@ -154,10 +145,12 @@ pub(super) fn reduced_models(
 ) -> Result<(), Error> {
     summary.directory = task.target.display().to_string();
     summary.rom = reduce(ground, place, task.threads, progress)?;
-    let (models, runs) = (summary.rom.len(), summary.rom.iter().map(|m| m.modes.len()).sum::<usize>());
-    let warnings = summary.rom.iter().flat_map(|model| model.warnings(ground.case.rom_schedule.step));
+    let (models, runs) =
+        (summary.rom.len(), summary.rom.iter().map(|m| m.modes.len()).sum::<usize>());
+    let warnings =
+        summary.rom.iter().filter_map(|model| model.warnings(ground.case.rom_schedule.step));
     summary.warnings.extend(warnings.collect::<Vec<_>>());
-    summary.warnings.iter().for_each(|warning| progress.warn(warning));
+    progress.warn(&summary.warnings);
     manifest.stage("reduced models", progress.end(&format!("{models} models, {runs} runs")));
     Ok(())
 }

@@ -77,7 +77,7 @@ pub fn decompose_snapshots(
     let found = Decomposed::exactly(x, w, &input.choice, task.threads);
     let found = found.map_err(Error::pod(&input.path))?;
     let warnings: Vec<String> = found.warnings(&input.choice);
-    warnings.iter().for_each(|warning| progress.warn(warning));
+    progress.warn(&warnings);
     BasisFile::save(&place.path().join("pod.npz"), &found.basis)?;
     manifest.stage("pod", progress.end(&found.headline()));
 
@@ -142,7 +142,9 @@ impl PodInput {
         let weights = read_vector(path)?;
         let repeated = match weights.len() {
             n if n == unknowns => weights,
-            n if n.checked_mul(self.components) == Some(unknowns) => weights.repeat(self.components),
+            n if n.checked_mul(self.components) == Some(unknowns) => {
+                weights.repeat(self.components)
+            }
             n => {
                 return Err(Error::Argument {
                     argument: "--weights",

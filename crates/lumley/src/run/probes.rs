@@ -11,9 +11,8 @@ pub(super) fn probes(record: &Record) -> Result<Vec<Probe>, Error> {
     let [position, velocity, middle, traction] = series.map(|name| record.series(name));
     let (position, velocity, middle, traction) = (position?, velocity?, middle?, traction?);
     let times = record.times();
-    let asked = |k: usize| {
-        k + 1 == times.len() || TIMES.iter().any(|time| (times[k] - time).abs() < 1e-9)
-    };
+    let asked =
+        |k: usize| k + 1 == times.len() || TIMES.iter().any(|time| (times[k] - time).abs() < 1e-9);
     let probe = |k: usize| Probe {
         time: times[k],
         body: BodyProbe { position: position.at(k)[0], velocity: velocity.at(k)[0] },

@@ -6,11 +6,14 @@ use crate::record::{
 };
 use std::path::Path;
 
+/// How a gauge reads its model.
+type Reading<M> = Box<dyn Fn(&M) -> Result<Vec<f64>, Error> + Send>;
+
 /// A short vector that is read off the model and recorded with each snapshot, as a series.
 pub struct Gauge<M> {
     name: &'static str,
     entries: Vec<Quantity>,
-    sample: Box<dyn Fn(&M) -> Result<Vec<f64>, Error> + Send>,
+    sample: Reading<M>,
 }
 
 impl<M: Model> Gauge<M> {

@@ -1,10 +1,10 @@
+use super::advance;
 use super::compare::Comparison;
 use super::decompose::SWEEP;
 use super::ground::Ground;
 use super::parallel::in_parallel;
+use super::recorder::{Gauge, Plan, Recorder};
 use super::simulate::fixed;
-use super::recorder::{Plan, Recorder, Gauge};
-use super::advance;
 use crate::Error;
 use crate::directory::Workplace;
 use crate::model::{Observer, StepError};
@@ -47,7 +47,8 @@ pub(super) fn reduce(
         let projection = choice.projection.name().to_owned();
         let shown = Some(ground.shown_of(choice));
         let mut entry = Reduced { projection, label: label.clone(), shown, ..Reduced::default() };
-        for ((_, modes), attempt) in jobs.iter().zip(&results).filter(|((model, _), _)| *model == k) {
+        for ((_, modes), attempt) in jobs.iter().zip(&results).filter(|((model, _), _)| *model == k)
+        {
             entry.modes.push(*modes);
             entry.res_percent.push(attempt.res_percent);
             entry.step_us.push(attempt.step_us);
@@ -69,9 +70,11 @@ impl Ground<'_> {
             gauges: vec![
                 position,
                 velocity,
-                Gauge::new("traction", vec![Quantity::new("tau", "m2/s2")], |model: &ReducedPiston| {
-                    Ok(vec![model.traction()])
-                }),
+                Gauge::new(
+                    "traction",
+                    vec![Quantity::new("tau", "m2/s2")],
+                    |model: &ReducedPiston| Ok(vec![model.traction()]),
+                ),
                 Gauge::new("coefficients", names, |model: &ReducedPiston| {
                     Ok(model.coefficients().to_vec())
                 }),
@@ -86,7 +89,8 @@ impl Ground<'_> {
         modes: usize,
         record: Option<&Path>,
     ) -> Result<Attempt, Error> {
-        let mut attempt = Attempt { res_percent: None, step_us: None, failure: None, stable_step: None };
+        let mut attempt =
+            Attempt { res_percent: None, step_us: None, failure: None, stable_step: None };
         match self.run(choice, modes, record, &mut attempt) {
             Err(Error::Step(StepError::Reduced(error @ ReducedError::Diverged { time, .. }))) => {
                 attempt.failure = Some(Failure { time, message: error.to_string() });
@@ -112,9 +116,10 @@ impl Ground<'_> {
             Some(folder) => Some(Recorder::create(folder, self.case, self.plan(modes), &model)?),
             None => None,
         };
-        let comparison = self.full.as_ref().map(|full| {
-            Comparison::new(fixed(self.case), full.as_ref(), &self.product)
-        });
+        let comparison = self
+            .full
+            .as_ref()
+            .map(|full| Comparison::new(fixed(self.case), full.as_ref(), &self.product));
         let mut observer = Both { recorder, comparison };
         if let Some(comparison) = &mut observer.comparison {
             comparison.observe(&model, 0)?;

@@ -7,8 +7,8 @@ use crate::directory;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::record::Record;
 use crate::report::{
-    FomVariant, Frame, ModeSet, Outcome, Parameters, PistonReport, Provenance, Report, RomResults, RomRun,
-    Trajectory, TransferError,
+    FomVariant, Frame, ModeSet, Outcome, Parameters, PistonReport, Provenance, Report, RomResults,
+    RomRun, Trajectory, TransferError,
 };
 use crate::summary::{Reduced, SUMMARY, Summary, Variant};
 use faer::MatRef;
@@ -93,7 +93,8 @@ fn parameters(case: &Case) -> Parameters {
         FlowSection::Sine(amplitude) => format!("linear and {amplitude} m/s sin(pi x/X(0))"),
         FlowSection::Table(name) => format!("the table {name}"),
     };
-    let scheme = toml::Value::try_from(case.scheme).map_or_else(|_| String::new(), |v| v.to_string());
+    let scheme =
+        toml::Value::try_from(case.scheme).map_or_else(|_| String::new(), |v| v.to_string());
     Parameters {
         viscosity: p.viscosity,
         spring_length: p.spring_length,
@@ -123,7 +124,10 @@ fn trajectory(record: &Record) -> Result<Trajectory, Error> {
         position: entry("position")?,
         velocity: entry("velocity")?,
         traction: entry("traction")?,
-        field: field.col_iter().flat_map(|column| column.iter().copied().collect::<Vec<_>>()).collect(),
+        field: field
+            .col_iter()
+            .flat_map(|column| column.iter().copied().collect::<Vec<_>>())
+            .collect(),
     })
 }
 

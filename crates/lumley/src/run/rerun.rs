@@ -1,9 +1,7 @@
 use super::basis::BasisFile;
 use super::decompose::whole;
 use super::ground::{Ground, is_mapped};
-use super::pipeline::{
-    CASE, Task, begin, finish, full_order_cost, reduced_models, snapshots,
-};
+use super::pipeline::{CASE, Task, begin, finish, full_order_cost, reduced_models, snapshots};
 use super::simulate::simulate;
 use super::{probes, report};
 use crate::Error;
@@ -86,8 +84,11 @@ fn copy_bases(source: &Path, place: &Workplace) -> Result<(), Error> {
         let (from, to) = (source.join("basis").join(name), folder.join(name));
         if from.exists() {
             BasisFile::load(&from)?;
-            fs::copy(&from, &to)
-                .map_err(|source| DirectoryError::Io { action: "write", path: to, source })?;
+            fs::copy(&from, &to).map_err(|source| DirectoryError::Io {
+                action: "write",
+                path: to,
+                source,
+            })?;
         }
     }
     Ok(())

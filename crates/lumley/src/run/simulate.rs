@@ -1,4 +1,4 @@
-use super::recorder::{Plan, Recorder, Gauge};
+use super::recorder::{Gauge, Plan, Recorder};
 use super::{Work, advance, transfer};
 use crate::Error;
 use crate::case::Case;
@@ -38,12 +38,11 @@ pub(super) fn simulate(
     progress.begin("full-order model", schedule.intervals);
     let folder = place.path().join("record");
     let plan = plan(case, &model);
-    let (recorder, first) = match checkpoint(place, &mut model)? {
-        Some(snapshots) => (Recorder::resume(&folder, plan, snapshots)?, snapshots - 1),
-        None => {
-            place.fresh_folder("record")?;
-            (Recorder::create(&folder, case, plan, &model)?, 0)
-        }
+    let (recorder, first) = if let Some(snapshots) = checkpoint(place, &mut model)? {
+        (Recorder::resume(&folder, plan, snapshots)?, snapshots - 1)
+    } else {
+        place.fresh_folder("record")?;
+        (Recorder::create(&folder, case, plan, &model)?, 0)
     };
     let mut observer = Keeper { recorder, place, progress, between, saved: Instant::now() };
     let work = advance(&mut model, schedule, first, &mut observer)?;
@@ -89,7 +88,8 @@ fn checkpoint(place: &Workplace, model: &mut Piston) -> Result<Option<usize>, Er
         return Ok(None);
     }
     let bytes = fs::read(&path).map_err(|e| io_error("read", &path, e))?;
-    let damaged = |message: &str| Error::Damaged { path: path.clone(), message: message.to_owned() };
+    let damaged =
+        |message: &str| Error::Damaged { path: path.clone(), message: message.to_owned() };
     let (count, mut state) = bytes.split_at_checked(8).ok_or_else(|| damaged("it is too short"))?;
     let count = u64::from_le_bytes(count.try_into().expect("eight bytes were split off"));
     Model::restore(model, &mut state).map_err(|e| damaged(&e.to_string()))?;
@@ -110,7 +110,8 @@ impl Observer<Piston> for Keeper<'_> {
     fn observe(&mut self, model: &Piston, snapshot: usize) -> Result<(), Error> {
         self.recorder.observe(model, snapshot)?;
         let time = Model::time(model);
-        self.progress.advance(snapshot, &format!("t = {time:.3} s, X = {:.4} m", model.interface()));
+        self.progress
+            .advance(snapshot, &format!("t = {time:.3} s, X = {:.4} m", model.interface()));
         if self.saved.elapsed() >= self.between {
             self.recorder.flush()?;
             let mut bytes = (snapshot as u64 + 1).to_le_bytes().to_vec();

@@ -3,11 +3,43 @@
 //! Two canonical cases: A leaves the block alone (c_F = 0), B is truly coupled (c_F = 1). Everything is
 //! computed by the same stages as `lumley run`, in a directory that is removed afterwards.
 
+mod full;
 mod piston;
 
-pub use piston::{CASES, rows};
-
+use crate::Error;
+use crate::progress::Progress;
 use crate::summary::Summary;
+use full::Bench;
+use piston::{CASES, rows};
+use std::path::Path;
+
+/// Computes the table, in runs below `folder`, and hands it over case by case. With `full`, the lines that
+/// take longer too: the accuracy of the time schemes, long runs, changed parameters.
+///
+/// # Errors
+/// Whatever ends a run.
+pub fn table(
+    folder: &Path,
+    full: bool,
+    progress: &mut Progress,
+    mut show: impl FnMut(&Row),
+) -> Result<Vec<Row>, Error> {
+    let mut all = Vec::new();
+    let mut bench = Bench::new(folder, progress);
+    for (k, (name, settings)) in CASES.iter().enumerate() {
+        let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+        let (_, summary) = bench.run(name, &settings)?;
+        let mut lines = rows(k, &summary);
+        if full {
+            lines.extend(bench.rows(k, name, &settings, &summary)?);
+        }
+        for line in &lines {
+            show(line);
+        }
+        all.extend(lines);
+    }
+    Ok(all)
+}
 
 /// One line of the table.
 ///
@@ -49,6 +81,8 @@ pub enum Tolerance {
     Relative(f64),
     /// At least the reference: the claim is that it is bad. Nothing at all, a blow-up, passes.
     AtLeast,
+    /// At most the reference.
+    AtMost,
 }
 
 impl Tolerance {
@@ -57,7 +91,7 @@ impl Tolerance {
         match self {
             Self::Absolute(width) => width,
             Self::Relative(share) => share * reference.abs(),
-            Self::AtLeast => f64::INFINITY,
+            Self::AtLeast | Self::AtMost => f64::INFINITY,
         }
     }
 }
@@ -69,6 +103,7 @@ impl Row {
             (Tolerance::AtLeast, None) => true,
             (_, None) => false,
             (Tolerance::AtLeast, Some(x)) => x >= self.reference,
+            (Tolerance::AtMost, Some(x)) => x <= self.reference,
             (tolerance, Some(x)) => (x - self.reference).abs() <= tolerance.width(self.reference),
         }
     }
@@ -78,17 +113,23 @@ impl Row {
         let computed = self.computed.map_or_else(|| "blew up".to_owned(), |x| format!("{x:.7}"));
         let tolerance = match self.tolerance {
             Tolerance::AtLeast => "or more".to_owned(),
+            Tolerance::AtMost => "or less".to_owned(),
             Tolerance::Absolute(width) => format!("{width}"),
             Tolerance::Relative(share) => format!("{} %", 100.0 * share),
         };
         let verdict = if self.passes() { "pass" } else { "FAIL" };
-        let Self { case, quantity, unit, reference, .. } = self;
-        format!("{case:<4} {quantity:<34} {reference:>12} {computed:>13} {unit:<6} {tolerance:>8}  {verdict}")
+        let Self { case, quantity, unit, .. } = self;
+        let reference = format!("{:.7}", self.reference);
+        let reference = reference.trim_end_matches('0').trim_end_matches('.');
+        format!(
+            "{case:<4} {quantity:<34} {reference:>12} {computed:>13} {unit:<6} {tolerance:>8}  {verdict}"
+        )
     }
 
     /// The heading above [`line`](Self::line)s.
     pub fn heading() -> String {
-        let (quantity, reference, computed, tolerance) = ("quantity", "reference", "computed", "within");
+        let (quantity, reference, computed, tolerance) =
+            ("quantity", "reference", "computed", "within");
         format!("case {quantity:<34} {reference:>12} {computed:>13} {:<6} {tolerance:>8}", "unit")
     }
 }

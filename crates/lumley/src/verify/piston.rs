@@ -6,17 +6,23 @@ use crate::summary::{Probe, Summary};
 type Line = (&'static str, &'static str, [f64; 2], Tolerance, fn(&Summary) -> Option<f64>);
 
 /// Settings laid over the canonical case file for case A and case B.
-pub const CASES: [(&str, &[&str]); 2] = [("A", &["piston.force_factor=0"]), ("B", &[])];
+pub(super) const CASES: [(&str, &[&str]); 2] = [("A", &["piston.force_factor=0"]), ("B", &[])];
 
 const TABLE: &[Line] = &[
     ("X(1)", "m", [0.988_610_1, 0.951_241_1], Absolute(5e-6), |s| Some(at(s, 1.0)?.body.position)),
     ("X'(1)", "m/s", [0.205_772, 0.177_792], Absolute(5e-5), |s| Some(at(s, 1.0)?.body.velocity)),
-    ("u(0.5, 1)", "m/s", [0.039_826_5, 0.003_237_8], Absolute(5e-6), |s| Some(at(s, 1.0)?.velocity_mid)),
-    ("nu u_x(X-, 1)", "m2/s2", [-0.167_003, 0.110_525], Absolute(1e-4), |s| Some(at(s, 1.0)?.traction)),
+    ("u(0.5, 1)", "m/s", [0.039_826_5, 0.003_237_8], Absolute(5e-6), |s| {
+        Some(at(s, 1.0)?.velocity_mid)
+    }),
+    ("nu u_x(X-, 1)", "m2/s2", [-0.167_003, 0.110_525], Absolute(1e-4), |s| {
+        Some(at(s, 1.0)?.traction)
+    }),
     ("X(2)", "m", [0.930_904_7, 0.959_638_1], Absolute(5e-6), |s| Some(at(s, 2.0)?.body.position)),
     ("X'(2)", "m/s", [-0.319_938, -0.018_564], Absolute(5e-5), |s| Some(at(s, 2.0)?.body.velocity)),
     ("max_t ||v||", "m3/2/s", [0.219_908, 0.183_928], Absolute(1e-5), |s| s.record.max_norm),
-    ("sum of lambda", "m3/s2", [0.021_555_7, 0.007_038_91], Relative(1e-3), |s| Some(s.pod.total_energy)),
+    ("sum of lambda", "m3/s2", [0.021_555_7, 0.007_038_91], Relative(1e-3), |s| {
+        Some(s.pod.total_energy)
+    }),
     ("energy of mode 1", "%", [89.567, 88.080], Absolute(0.02), |s| energy(s, 1)),
     ("energy of mode 2", "%", [9.830, 11.219], Absolute(0.02), |s| energy(s, 2)),
     ("energy of mode 3", "%", [0.3227, 0.5717], Relative(0.01), |s| energy(s, 3)),
@@ -35,7 +41,7 @@ const TABLE: &[Line] = &[
 ];
 
 /// The table for one case, computed numbers from `summary`; `case` is 0 for A and 1 for B.
-pub fn rows(case: usize, summary: &Summary) -> Vec<Row> {
+pub(super) fn rows(case: usize, summary: &Summary) -> Vec<Row> {
     let row = |&(quantity, unit, references, tolerance, computed): &Line| Row {
         case: CASES[case].0,
         quantity,

@@ -35,7 +35,8 @@ fn wrong_values_are_refused_with_their_place() {
     for (right, wrong, words) in table {
         assert!(canonical.contains(right), "no {right:?} in the case");
         desk.write("piston/wrong.toml", canonical.replacen(right, wrong, 1).as_bytes());
-        let line = 1 + canonical.split(right).next().map_or(0, |before| before.matches('\n').count());
+        let line =
+            1 + canonical.split(right).next().map_or(0, |before| before.matches('\n').count());
         let place = format!("wrong.toml, line {line}:");
         desk.lumley(&["run", "piston/wrong.toml", "-o", "out"]).refused(2, words);
         desk.lumley(&["check", "piston/wrong.toml"]).refused(2, &[&place]);

@@ -82,8 +82,13 @@ fn weights_scale_the_energy() {
 #[test]
 fn more_modes_than_the_rank_are_the_ranks_with_a_warning() {
     let desk = desk_with_waves();
-    let answer = desk.lumley(&["pod", "x.npy", "--modes", "30", "--method", "svd", "-o", "out"]).good();
-    assert!(answer.stderr.contains("warning") && answer.stderr.contains("rank 3"), "{}", answer.stderr);
+    let answer =
+        desk.lumley(&["pod", "x.npy", "--modes", "30", "--method", "svd", "-o", "out"]).good();
+    assert!(
+        answer.stderr.contains("warning") && answer.stderr.contains("rank 3"),
+        "{}",
+        answer.stderr
+    );
     assert!(answer.stdout.contains("3 modes"), "{}", answer.stdout);
 }
 
@@ -137,7 +142,8 @@ fn bad_snapshots_are_refused() {
 #[test]
 fn a_hostile_header_is_refused() {
     let desk = Desk::new();
-    let dictionary = "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000, 1000000000), }";
+    let dictionary =
+        "{'descr': '<f8', 'fortran_order': False, 'shape': (1000000000, 1000000000), }";
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
     bytes.extend(118_u16.to_le_bytes());
     bytes.extend(format!("{dictionary:<117}\n").as_bytes());

@@ -53,7 +53,8 @@ fn long_runs_and_changed_parameters_stay_accurate() {
 fn changed_models_are_not_compared_with_another_flow() {
     let desk = Desk::new();
     desk.quick_run();
-    let summary = summary(&desk, &["--set", "piston.stiffness=45", "--set", "time.end=3", "-o", "new"]);
+    let summary =
+        summary(&desk, &["--set", "piston.stiffness=45", "--set", "time.end=3", "-o", "new"]);
     assert_eq!(res(&summary, "mapped"), None);
     let model = summary.rom.iter().find(|model| model.label == "mapped").expect("it ran");
     assert!(model.shown_failure().is_none() && model.shown_step_us().is_some());

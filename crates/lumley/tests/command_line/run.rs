@@ -24,7 +24,8 @@ fn the_summary_has_its_names_and_json_is_all_of_stdout() {
     let desk = Desk::new();
     let answer = desk.lumley(&["run", "piston/case.toml", "--quick", "--json"]).good();
     let summary: Value = serde_json::from_str(&answer.stdout).expect("one JSON object");
-    let list = |at: &str| summary.pointer(at).and_then(Value::as_array).cloned().unwrap_or_default();
+    let list =
+        |at: &str| summary.pointer(at).and_then(Value::as_array).cloned().unwrap_or_default();
     for at in ["/pod/eigenvalues", "/pod/energy_percent", "/pod/cumulative_percent"] {
         assert!(list(at).len() >= 6, "{at}");
     }
@@ -50,7 +51,8 @@ fn the_summary_has_its_names_and_json_is_all_of_stdout() {
 fn the_body_frame_is_far_more_accurate() {
     let desk = Desk::new();
     let answer = desk.lumley(&["run", "piston/case.toml", "--quick", "--json"]).good();
-    let summary: lumley::summary::Summary = serde_json::from_str(&answer.stdout).expect("a summary");
+    let summary: lumley::summary::Summary =
+        serde_json::from_str(&answer.stdout).expect("a summary");
     let res = |label: &str| {
         let model = summary.rom.iter().find(|model| model.label == label);
         model.and_then(lumley::summary::Reduced::shown_res).expect("it reached the end")
@@ -90,7 +92,8 @@ fn check_runs_nothing() {
         assert!(answer.stdout.contains(word), "no {word} in {}", answer.stdout);
     }
     assert!(!desk.path("runs").exists());
-    desk.lumley(&["check", "piston/case.toml", "--set", "piston.mass=-1"]).refused(2, &["piston.mass"]);
+    desk.lumley(&["check", "piston/case.toml", "--set", "piston.mass=-1"])
+        .refused(2, &["piston.mass"]);
 }
 
 #[test]
