@@ -2,7 +2,7 @@
 //! bodies.
 //!
 //! This crate carries a case from its file to its report: [`case`] files, [`model`]s that can be run, the
-//! [`run`] loop and its stages, the [`record`] of snapshots, file [`format`]s, the [`report`], and the
+//! [`run`] loop and its stages, the [`record`] of snapshots, file [`mod@format`]s, the [`report`], and the
 //! [`command`] line. It holds no formula: those are in `lumley-fem`, `-body`, `-pod`, `-fom` and `-rom`.
 //!
 //! ```

@@ -48,7 +48,7 @@ enum Command {
 #[derive(Args)]
 struct Output {
     /// Directory to write; an existing one is an error
-    #[arg(short, long = "output", value_name = "DIR")]
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
     directory: Option<PathBuf>,
     /// Replace a run of lumley that stands there
     #[arg(long)]

@@ -39,7 +39,7 @@ fn long_runs_and_changed_parameters_stay_accurate() {
     ];
     for change in changes {
         let mut arguments = vec!["--compare"];
-        change.iter().for_each(|setting| arguments.extend(["--set", setting]));
+        arguments.extend(change.iter().flat_map(|setting| ["--set", setting]));
         let summary = summary(&desk, &arguments);
         for (label, bound) in [("multiplier", 4.0), ("penalty", 3.0), ("mapped", 0.3)] {
             let res = res(&summary, label).expect("it reached the end");

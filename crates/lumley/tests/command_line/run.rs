@@ -148,7 +148,7 @@ fn every_choice_of_the_case_file_runs() {
     ];
     for choice in choices {
         let mut arguments = vec!["run", "piston/case.toml", "--quick", "--json"];
-        choice.iter().for_each(|setting| arguments.extend(["--set", setting]));
+        arguments.extend(choice.iter().flat_map(|setting| ["--set", setting]));
         let answer = desk.lumley(&arguments).good();
         let summary: lumley::summary::Summary = serde_json::from_str(&answer.stdout).expect("JSON");
         let mapped = summary.rom.last().and_then(lumley::summary::Reduced::shown_res);
