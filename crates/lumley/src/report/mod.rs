@@ -20,8 +20,8 @@ mod wellformed;
 pub use html::Report;
 pub use markup::{escape, literal};
 pub use piston::{
-    FomVariant, Frame, ModeSet, Outcome, Parameters, PistonReport, RomResults, RomRun, Trajectory,
-    TransferError,
+    EqualAccuracy, Frame, ModeSet, Outcome, Parameters, PistonReport, RomResults, RomRun,
+    Trajectory, TransferError, Variant,
 };
 pub use pod::{FieldGrid, PodReport};
 pub use provenance::Provenance;

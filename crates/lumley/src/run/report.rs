@@ -4,13 +4,14 @@ use super::pipeline::CASE;
 use crate::Error;
 use crate::case::{Case, FlowSection};
 use crate::directory;
+use crate::format::npz::NpzReader;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::record::Record;
 use crate::report::{
-    FomVariant, Frame, ModeSet, Outcome, Parameters, PistonReport, Provenance, Report, RomResults,
-    RomRun, Trajectory, TransferError,
+    EqualAccuracy, Frame, ModeSet, Outcome, Parameters, PistonReport, Provenance, Report,
+    RomResults, RomRun, Trajectory, TransferError, Variant,
 };
-use crate::summary::{Reduced, SUMMARY, Summary, Variant};
+use crate::summary::{self, Reduced, SUMMARY, Summary};
 use faer::MatRef;
 use serde::de::DeserializeOwned;
 use std::fs;
@@ -45,11 +46,11 @@ fn piston(folder: &Path, name: &Path) -> Result<PistonReport, Error> {
     let grid = (0..case.grid.len()).map(|k| case.grid.point(k)[0]).collect();
     let basis = folder.join("basis");
     Ok(PistonReport {
-        name: case.name.clone(),
+        name: manifest.case.clone(),
         parameters: parameters(&case),
         times: (0..case.schedule.snapshots()).map(|k| case.schedule.time(k)).collect(),
         full: record.as_ref().map_or_else(|| Ok(Trajectory::default()), trajectory)?,
-        eigenvalues: summary.pod.eigenvalues.clone(),
+        eigenvalues: spectrum(&basis.join("fixed.npz"))?,
         fixed_grid: mode_set(&basis.join("fixed.npz"), grid, own_basis)?,
         reference: mode_set(&basis.join("reference.npz"), nodes, own_basis)?,
         projection: summary.projection.res_percent.clone(),
@@ -58,6 +59,11 @@ fn piston(folder: &Path, name: &Path) -> Result<PistonReport, Error> {
         transfer: transfer(&case, &summary),
         provenance: provenance(&case, &manifest, name),
     })
+}
+
+/// All eigenvalues that the decomposition saw, not only those of the modes that are kept.
+fn spectrum(path: &Path) -> Result<Vec<f64>, Error> {
+    Ok(NpzReader::open(path)?.vector("spectrum")?)
 }
 
 /// The modes in the file at `path`, if there is one; the coefficients in it are those of the snapshots
@@ -151,23 +157,22 @@ fn reduced(folder: &Path, case: &Case, model: &Reduced) -> Result<RomResults, Er
         shown,
         steps: case.rom_schedule.steps(),
         trajectory: trajectory(&record)?,
+        equal: model.speedup.map(|speedup| EqualAccuracy {
+            reduced: variant(&speedup.reduced),
+            full: variant(&speedup.full),
+        }),
         frame: if model.projection == "mapped" { Frame::Reference } else { Frame::FixedGrid },
         coefficients: (0..shown).map(|n| coefficients.entry(n).collect()).collect(),
     })
 }
 
-fn variants(summary: &Summary) -> Vec<FomVariant> {
+fn variants(summary: &Summary) -> Vec<Variant> {
     summary.fom.iter().flat_map(|fom| fom.variants.iter().map(variant)).collect()
 }
 
-fn variant(variant: &Variant) -> FomVariant {
-    FomVariant {
-        cells: variant.size,
-        dt: variant.step,
-        steps: variant.steps,
-        step_us: variant.step_us,
-        error_percent: variant.res_percent,
-    }
+fn variant(variant: &summary::Variant) -> Variant {
+    let &summary::Variant { size, step, steps, step_us, res_percent } = variant;
+    Variant { size, step, steps, step_us, error_percent: res_percent }
 }
 
 fn transfer(case: &Case, summary: &Summary) -> Vec<TransferError> {

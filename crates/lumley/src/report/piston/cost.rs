@@ -1,6 +1,6 @@
 //! What the models cost, and what the transfer to the fixed grid loses.
 
-use super::{FomVariant, PistonReport, RomResults, named};
+use super::{PistonReport, RomResults, Variant, named};
 use crate::report::figure::{Axis, Figure, LineChart, Series};
 use crate::report::html::{Section, Table};
 use crate::report::literal;
@@ -12,7 +12,7 @@ pub(super) fn section(report: &PistonReport) -> Section {
          accurate, not against the one it was made from. Errors are against the full model of \
          this run, in the norm of (32).",
     );
-    let section = match report.best().and_then(|best| Some((best, speed_ratio(report, best)?))) {
+    let section = match report.best().and_then(|best| Some((best, speed_ratio(best)?))) {
         Some((best, ratio)) => section.paragraph(&format!(
             "At equal accuracy “{}” with *N* = {} is {} times as fast as the full model.",
             literal(&best.name),
@@ -24,23 +24,10 @@ pub(super) fn section(report: &PistonReport) -> Section {
     section.figure(figure(report)).table(&table(report))
 }
 
-/// Cost of the cheapest full model that is no less accurate than the shown run of `model`, over
-/// the cost of that run.
-pub(super) fn speed_ratio(report: &PistonReport, model: &RomResults) -> Option<f64> {
-    let ratio = equal(report, model)?.seconds() / seconds(model)?;
+/// How many times as fast as a full model of equal accuracy the shown run is.
+pub(super) fn speed_ratio(model: &RomResults) -> Option<f64> {
+    let ratio = model.equal.as_ref()?.ratio();
     (ratio.is_finite() && ratio > 0.0).then_some(ratio)
-}
-
-fn equal<'a>(report: &'a PistonReport, model: &RomResults) -> Option<&'a FomVariant> {
-    let res = model.shown_res()?;
-    let accurate = report.variants.iter().filter(|full| full.error_percent <= res);
-    accurate.min_by(|a, b| a.seconds().total_cmp(&b.seconds()))
-}
-
-/// Time of the shown run, in s.
-fn seconds(model: &RomResults) -> Option<f64> {
-    let step_us = model.shown_run()?.step_us;
-    Some(model.steps as f64 * step_us * 1e-6)
 }
 
 fn figure(report: &PistonReport) -> Figure {
@@ -56,12 +43,15 @@ fn figure(report: &PistonReport) -> Figure {
         let finished = model.runs.iter().filter_map(|run| {
             Some((model.steps as f64 * run.step_us * 1e-3, run.drawn_percent()?))
         });
-        let (x, y): (Vec<f64>, Vec<f64>) = finished.unzip();
+        let longest = model.equal.as_ref().map(|equal| &equal.reduced);
+        let longest = longest.map(|run| (1e3 * run.seconds(), run.error_percent));
+        let (x, y): (Vec<f64>, Vec<f64>) = finished.chain(longest).unzip();
         chart.series(Series::points(&literal(&model.name), &x, &y).colour(k))
     });
     let caption = "Error against computing time: lower left is better. Each marker of a reduced \
-        model is a number of modes; read the saving along a horizontal line, from a reduced model \
-        to the full models. The full model of this run has no error here and no place.";
+        model is a number of modes with the step of the case; the leftmost is the shown number with \
+        the longest step that keeps its accuracy. Read the saving along a horizontal line, from there \
+        to the full models.";
     chart.draw(360.0).figure("cost", caption)
 }
 
@@ -69,40 +59,36 @@ fn table(report: &PistonReport) -> Table {
     let head = [
         "model",
         "error (%)",
+        "Δ*t* (s)",
         "time per step (µs)",
         "steps",
         "total",
         "full model as accurate",
         "ratio",
     ];
-    let full = report.variants.iter().map(|full| {
-        let name = format!("full, {} cells, Δ*t* = {}\u{a0}s", count(full.cells), exact(full.dt));
-        let error = match full.error_percent {
-            0.0 => "this run".into(),
-            error => significant(error, 3),
-        };
-        row(name, error, full.step_us, full.steps)
-    });
+    let full =
+        report.variants.iter().map(|full| row(format!("full, {} cells", count(full.size)), full));
     let reduced = report.reduced.iter().filter_map(|model| {
-        let run = model.shown_run()?;
-        let mut cells = row(
-            named(model),
-            model.shown_res().map_or("blew up".into(), |res| significant(res, 3)),
-            run.step_us,
-            model.steps,
-        );
-        if let Some(full) = equal(report, model) {
-            cells[5] = format!("{} cells, {}\u{a0}s", count(full.cells), exact(full.dt));
-            cells[6] = speed_ratio(report, model).map_or(String::new(), |r| significant(r, 2));
-        }
+        let equal = model.equal.as_ref()?;
+        let mut cells = row(named(model), &equal.reduced);
+        cells[6] = format!("{} cells, {}\u{a0}s", count(equal.full.size), exact(equal.full.step));
+        cells[7] = speed_ratio(model).map_or(String::new(), |ratio| significant(ratio, 2));
         Some(cells)
     });
     Table::new(&head).rows(full.chain(reduced))
 }
 
-fn row(name: String, error: String, step_us: f64, steps: usize) -> Vec<String> {
-    let total = duration(steps as f64 * step_us * 1e-6);
-    vec![name, error, significant(step_us, 3), count(steps), total, String::new(), String::new()]
+fn row(name: String, model: &Variant) -> Vec<String> {
+    let mut cells = vec![
+        name,
+        significant(model.error_percent, 3),
+        exact(model.step),
+        significant(model.step_us, 3),
+        count(model.steps),
+        duration(model.seconds()),
+    ];
+    cells.resize(8, String::new());
+    cells
 }
 
 pub(super) fn transfer_section(report: &PistonReport) -> Section {

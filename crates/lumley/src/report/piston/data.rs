@@ -186,6 +186,8 @@ pub struct RomResults {
     pub shown: usize,
     /// Steps of a run that reaches the end.
     pub steps: usize,
+    /// Its cost at equal accuracy, where a full model was found to compare with.
+    pub equal: Option<EqualAccuracy>,
     /// What the model computed with `shown` modes.
     pub trajectory: Trajectory,
     /// `a_n(t)` that it computed, n = 1, 2, ..., in the unit of the frame's projected ones.
@@ -204,20 +206,20 @@ impl RomResults {
     }
 }
 
-/// A full model of some resolution, to compare the cost at equal accuracy.
+/// A model of some resolution and its cost.
 ///
 /// ```
-/// use lumley::report::FomVariant;
+/// use lumley::report::Variant;
 ///
-/// let coarse = FomVariant { cells: 50, dt: 5e-3, steps: 400, step_us: 4.8, error_percent: 1.7 };
+/// let coarse = Variant { size: 50, step: 5e-3, steps: 400, step_us: 4.8, error_percent: 1.7 };
 /// assert_eq!(coarse.seconds(), 400.0 * 4.8e-6);
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct FomVariant {
-    /// Cells of the mesh.
-    pub cells: usize,
+pub struct Variant {
+    /// Cells of a full model, modes of a reduced one.
+    pub size: usize,
     /// Step, in s.
-    pub dt: f64,
+    pub step: f64,
     /// Steps to the end.
     pub steps: usize,
     /// Time per step, in µs.
@@ -226,10 +228,34 @@ pub struct FomVariant {
     pub error_percent: f64,
 }
 
-impl FomVariant {
+impl Variant {
     /// Time of the whole computation, in s.
     pub fn seconds(&self) -> f64 {
         self.steps as f64 * self.step_us * 1e-6
+    }
+}
+
+/// A reduced model beside the cheapest full model that is no less accurate.
+///
+/// ```
+/// use lumley::report::{EqualAccuracy, Variant};
+///
+/// let model = |step_us| Variant { steps: 200, step_us, ..Variant::default() };
+/// let equal = EqualAccuracy { reduced: model(0.5), full: model(5.0) };
+/// assert_eq!(equal.ratio(), 10.0);
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct EqualAccuracy {
+    /// The shown run, with the longest step that keeps its accuracy.
+    pub reduced: Variant,
+    /// The full model.
+    pub full: Variant,
+}
+
+impl EqualAccuracy {
+    /// How many times as fast the reduced model is.
+    pub fn ratio(&self) -> f64 {
+        self.full.seconds() / self.reduced.seconds()
     }
 }
 

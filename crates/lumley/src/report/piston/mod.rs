@@ -16,7 +16,8 @@ mod sample;
 mod tests;
 
 pub use data::{
-    FomVariant, Frame, ModeSet, Outcome, Parameters, RomResults, RomRun, Trajectory, TransferError,
+    EqualAccuracy, Frame, ModeSet, Outcome, Parameters, RomResults, RomRun, Trajectory,
+    TransferError, Variant,
 };
 
 use super::figure::Series;
@@ -54,8 +55,8 @@ pub struct PistonReport {
     pub projection: Vec<f64>,
     /// The reduced models.
     pub reduced: Vec<RomResults>,
-    /// Full models of other resolutions, and the run's own (error 0).
-    pub variants: Vec<FomVariant>,
+    /// Coarser full models, each cheaper than all that are more accurate.
+    pub variants: Vec<Variant>,
     /// Errors of the ways to the fixed grid.
     pub transfer: Vec<TransferError>,
     /// Where the numbers come from.
@@ -109,7 +110,7 @@ impl PistonReport {
         if let Some((best, res)) = self.best().and_then(|best| Some((best, best.shown_res()?))) {
             let meaning = format!("Res of the best reduced model: {}", named(best));
             facts.push((number::significant(res, 2) + " %", meaning));
-            if let Some(ratio) = cost::speed_ratio(self, best) {
+            if let Some(ratio) = cost::speed_ratio(best) {
                 let meaning = "as fast as the cheapest full model that is no less accurate".into();
                 facts.push((number::significant(ratio, 2) + " ×", meaning));
             }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use super::{
-    FomVariant, Frame, ModeSet, Outcome, Parameters, PistonReport, RomResults, RomRun, Trajectory,
-    TransferError,
+    EqualAccuracy, Frame, ModeSet, Outcome, Parameters, PistonReport, RomResults, RomRun,
+    Trajectory, TransferError, Variant,
 };
 use crate::report::Provenance;
 
@@ -24,9 +24,8 @@ pub(super) fn report(nodes: usize, times: usize) -> PistonReport {
         projection: (1..=10).map(|n| 40.0 * (-0.6 * f64::from(n)).exp()).collect(),
         reduced: names.iter().enumerate().map(model).collect(),
         variants: vec![
-            FomVariant { cells: 800, dt: 5e-4, steps: 4000, step_us: 70.0, error_percent: 0.0 },
-            FomVariant { cells: 100, dt: 2e-3, steps: 1000, step_us: 9.0, error_percent: 0.5 },
-            FomVariant { cells: 25, dt: 1e-2, steps: 200, step_us: 3.0, error_percent: 4.0 },
+            Variant { size: 25, step: 1e-2, steps: 200, step_us: 3.0, error_percent: 4.0 },
+            hundred_cells(),
         ],
         transfer: vec![TransferError { method: "inverse distance".into(), error_percent: 0.3 }],
         provenance: Provenance {
@@ -39,6 +38,10 @@ pub(super) fn report(nodes: usize, times: usize) -> PistonReport {
         fixed_grid: modes(grid, &times),
         times,
     }
+}
+
+fn hundred_cells() -> Variant {
+    Variant { size: 100, step: 2e-3, steps: 1000, step_us: 9.0, error_percent: 0.5 }
 }
 
 fn parameters() -> Parameters {
@@ -98,6 +101,10 @@ fn reduced(name: &str, k: usize, grid: &[f64], times: &[f64]) -> RomResults {
         frame: if k == 4 { Frame::Reference } else { Frame::FixedGrid },
         shown: 6,
         steps: 8000,
+        equal: (k == 4).then(|| EqualAccuracy {
+            reduced: Variant { size: 6, step: 1e-2, steps: 200, step_us: 1.8, error_percent: 0.5 },
+            full: hundred_cells(),
+        }),
         trajectory: trajectory(grid, &times[..reached], 1.0 + 0.1 / (k + 1) as f64),
         coefficients: modes(Vec::new(), &times[..reached]).projected,
     }
