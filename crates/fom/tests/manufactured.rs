@@ -119,6 +119,11 @@ fn unequal(dt: f64, step: usize) -> f64 {
     if step.is_multiple_of(2) { 0.8 * dt } else { 1.2 * dt }
 }
 
+/// Steps that grow by a ratio of 5, where BDF2 starts again, and shrink by it.
+fn restarting(dt: f64, step: usize) -> f64 {
+    if step.is_multiple_of(2) { dt / 3.0 } else { 5.0 * dt / 3.0 }
+}
+
 #[test]
 fn degree_1_is_second_order_in_space() -> Result<(), PistonError> {
     let orders = space(1, [8, 16, 32])?;
@@ -164,5 +169,12 @@ fn unequal_steps_keep_the_order() -> Result<(), PistonError> {
             "{scheme:?}: {orders:?}"
         );
     }
+    Ok(())
+}
+
+#[test]
+fn bdf2_that_starts_again_keeps_the_order() -> Result<(), PistonError> {
+    let orders = time(TimeScheme::Bdf2, restarting)?;
+    assert!(orders.iter().all(|order| (order - 2.0).abs() < 0.1), "{orders:?}");
     Ok(())
 }

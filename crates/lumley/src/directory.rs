@@ -157,6 +157,14 @@ impl Workplace {
         Ok(path)
     }
 
+    /// Nothing of this is worth going on with: removes the partial directory, which lumley made.
+    ///
+    /// # Errors
+    /// [`DirectoryError::Io`].
+    pub fn abandon(self) -> Result<(), DirectoryError> {
+        remove(&self.partial)
+    }
+
     /// The run is complete: gives it its name, in the place of an older run where that was asked for.
     ///
     /// # Errors

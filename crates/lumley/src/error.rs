@@ -6,6 +6,7 @@ use crate::record::RecordError;
 use lumley_fom::PistonError;
 use lumley_pod::{InnerProductError, PodError};
 use lumley_rom::ReducedError;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Everything that can end a command, with what to do about it.
@@ -61,11 +62,28 @@ pub enum Error {
         path: PathBuf,
     },
     /// The settings of `lumley rom` need another basis than the run has.
-    #[error("{}: its modes belong to its mesh, its grid, its domain_length and its projections\n  help: `lumley rom` changes the other keys of piston, time and rom; for these make a new run with `lumley run`", path.display())]
+    #[error("{}: its modes cannot serve with another {key}\n  help: `lumley rom` changes piston (but for domain_length), time, record, rom and pod.modes; for the rest make a new run with `lumley run`", path.display())]
     OtherBasis {
         /// The run.
         path: PathBuf,
+        /// What was changed.
+        key: &'static str,
     },
+    /// `lumley rom` was to replace the run that it reads.
+    #[error("{}: a run cannot be replaced by its own reduced models\n  help: choose another directory with -o", path.display())]
+    OntoItself {
+        /// The run.
+        path: PathBuf,
+    },
+    /// A directory that `lumley pod` made, where the run of a case is needed.
+    #[error("{} holds the POD of snapshots and no case\n  help: `lumley pod` writes its report; `lumley report` and `lumley rom` take the directory of a `lumley run`", path.display())]
+    NoCase {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// The result cannot be printed.
+    #[error("cannot print the result: {0}")]
+    Print(#[from] io::Error),
     /// A file of a run directory is not what lumley wrote.
     #[error("{}: {message}\n  help: the file was changed or damaged; make the run again with `lumley run --force`", path.display())]
     Damaged {
@@ -106,10 +124,17 @@ impl Error {
         move |source| Self::Pod { path: path.to_owned(), source: source.into() }
     }
 
-    /// 1 where the computation failed, 2 where the input is wrong.
+    /// 1 where the computation failed, 2 where the input is wrong or the system refuses.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Step(_) | Self::Verification { .. } => 1,
+            Self::Step(_)
+            | Self::Verification { .. }
+            | Self::Pod {
+                source: PodError::NoConvergence { .. } | PodError::LostOrthogonality,
+                ..
+            }
+            | Self::Record(RecordError::NonFinite { .. })
+            | Self::Piston(PistonError::NonFinite { .. }) => 1,
             _ => 2,
         }
     }

@@ -1,18 +1,69 @@
 //! `manifest.json`: what made a run directory, on what, and how long it took.
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use std::fmt;
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
 
-/// Name of the file in a run directory; its presence is what makes a directory a run.
+/// Name of the file in a run directory; that it says `lumley` is what makes a directory a run.
 pub const MANIFEST: &str = "manifest.json";
+const PROGRAM: &str = "lumley";
+
+/// Why there is no manifest to be had from a directory.
+///
+/// ```
+/// use lumley::manifest::{Manifest, ManifestError};
+/// let error = Manifest::read("no/such/run".as_ref()).unwrap_err();
+/// assert!(matches!(error, ManifestError::Missing { .. }));
+/// ```
+#[derive(Debug, thiserror::Error)]
+pub enum ManifestError {
+    /// There is no such file.
+    #[error("{} is missing\n  help: give the directory that `lumley run` printed", path.display())]
+    Missing {
+        /// The manifest.
+        path: PathBuf,
+    },
+    /// The system refused.
+    #[error("cannot read {}: {source}\n  help: check the path and its permissions", path.display())]
+    Read {
+        /// The manifest.
+        path: PathBuf,
+        /// The system's answer.
+        source: io::Error,
+    },
+    /// Not a manifest of any program.
+    #[error("{} is not JSON: {source}\n  help: give the directory that `lumley run` printed", path.display())]
+    NotJson {
+        /// The file.
+        path: PathBuf,
+        /// Where it is wrong.
+        source: serde_json::Error,
+    },
+    /// The manifest of something else.
+    #[error("{} was not written by lumley\n  help: give the directory that `lumley run` printed", path.display())]
+    OtherProgram {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Written by lumley, and changed, or of another version.
+    #[error("{}: {source}\n  help: it was changed or comes from another version of lumley; make the run again", path.display())]
+    Damaged {
+        /// The manifest.
+        path: PathBuf,
+        /// What is wrong.
+        source: serde_json::Error,
+    },
+}
 
 /// Provenance of a run.
 ///
 /// ```
 /// use lumley::manifest::Manifest;
-/// let manifest = Manifest::new("piston", b"[piston]");
+/// let manifest = Manifest::new("piston", "lumley run piston/case.toml");
 /// assert_eq!(manifest.program, "lumley");
-/// assert_eq!(manifest.inputs[0].crc32c.len(), 8);
 /// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
@@ -22,6 +73,8 @@ pub struct Manifest {
     pub version: String,
     /// Name of the case.
     pub case: String,
+    /// What to type to get it again.
+    pub command: String,
     /// The inputs and their checksums.
     pub inputs: Vec<Input>,
     /// The machine.
@@ -49,6 +102,26 @@ pub struct Input {
 }
 
 impl Input {
+    /// The file at `path`, read in pieces.
+    ///
+    /// # Errors
+    /// The failure of the medium.
+    pub fn of_file(path: &Path) -> io::Result<Self> {
+        let mut file = File::open(path)?;
+        let mut buffer = vec![0; 1 << 20];
+        let (mut bytes, mut crc) = (0, 0);
+        loop {
+            let read = file.read(&mut buffer)?;
+            if read == 0 {
+                break;
+            }
+            bytes += read as u64;
+            crc = crc32c::crc32c_append(crc, &buffer[..read]);
+        }
+        let name = path.display().to_string();
+        Ok(Self { name, bytes, crc32c: format!("{crc:08x}") })
+    }
+
     /// The input called `name` with this content.
     pub fn new(name: &str, content: &[u8]) -> Self {
         let crc32c = format!("{:08x}", crc32c::crc32c(content));
@@ -107,16 +180,38 @@ pub struct Stage {
 }
 
 impl Manifest {
-    /// The manifest of a run that begins, of the case `case` with this resolved file.
-    pub fn new(case: &str, resolved: &[u8]) -> Self {
+    /// The manifest of a run of `case` that begins with this command.
+    pub fn new(case: &str, command: &str) -> Self {
         Self {
-            program: "lumley".into(),
+            program: PROGRAM.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             case: case.to_owned(),
-            inputs: vec![Input::new("case.toml", resolved)],
+            command: command.to_owned(),
+            inputs: Vec::new(),
             machine: Machine::this(),
             stages: Vec::new(),
             complete: false,
+        }
+    }
+
+    /// The manifest of the run in `folder`.
+    ///
+    /// # Errors
+    /// [`ManifestError`] when there is none, or not one of lumley.
+    pub fn read(folder: &Path) -> Result<Self, ManifestError> {
+        let path = folder.join(MANIFEST);
+        if !path.is_file() {
+            return Err(ManifestError::Missing { path });
+        }
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(source) => return Err(ManifestError::Read { path, source }),
+        };
+        match serde_json::from_slice::<Value>(&bytes) {
+            Err(source) => Err(ManifestError::NotJson { path, source }),
+            Ok(value) if value["program"] != PROGRAM => Err(ManifestError::OtherProgram { path }),
+            Ok(value) => serde_json::from_value(value)
+                .map_err(|source| ManifestError::Damaged { path, source }),
         }
     }
 
@@ -132,4 +227,12 @@ impl Manifest {
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a manifest is plain data")
     }
+}
+
+/// Memory of this machine in bytes, as far as the system tells; else 16 GB.
+pub(crate) fn memory() -> f64 {
+    let info = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let total = info.lines().find_map(|line| line.strip_prefix("MemTotal:"));
+    let kilobytes = total.and_then(|t| t.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
+    kilobytes.map_or(16e9, |kb| kb * 1024.0)
 }

@@ -19,6 +19,9 @@ pub struct Summary {
     pub case: String,
     /// Where the run is.
     pub directory: String,
+    /// The run whose modes these are, where they are not this run's own.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub basis: Option<String>,
     /// The full-order model; absent for snapshots that lumley did not compute.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub fom: Option<FullOrder>,
@@ -176,6 +179,16 @@ pub struct Projection {
 pub struct Reduced {
     /// `printed`, `corrected`, `multiplier`, `penalty` or `mapped`.
     pub projection: String,
+    /// beta of a multiplier, in 1/s.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub beta: Option<f64>,
+    /// sigma of a penalty, in m/s.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub sigma: Option<f64>,
+    /// Its closure.
+    pub closure: String,
+    /// Whether its modes live in the reference frame.
+    pub reference_frame: bool,
     /// Name of the model's folder and of its curves.
     pub label: String,
     /// Numbers of modes N.

@@ -4,7 +4,6 @@
 use crate::PodError;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor as llt;
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::svd::{ComputeSvdVectors, SvdParams, svd, svd_scratch};
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
@@ -55,19 +54,15 @@ pub(crate) fn right_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodE
     Ok((values.column_vector().iter().copied().collect(), right))
 }
 
-/// The upper triangular R of `a = Rᵀ R` and its inverse, or nothing where `a` is not positive
-/// definite.
-pub(crate) fn cholesky(a: MatRef<'_, f64>) -> Option<(Mat<f64>, Mat<f64>)> {
-    let size = a.nrows();
-    let mut l = a.to_owned();
-    let scratch = llt::cholesky_in_place_scratch::<f64>(size, Par::Seq, Spec::default());
-    let mut buffer = MemBuffer::new(scratch);
-    let (stack, plain) = (MemStack::new(&mut buffer), llt::LltRegularization::default());
-    llt::cholesky_in_place(l.as_mut(), plain, Par::Seq, stack, Spec::default()).ok()?;
-    let r = Mat::from_fn(size, size, |i, j| if i <= j { l[(j, i)] } else { 0.0 });
+/// The inverse of a square upper triangular matrix, or nothing where it is singular.
+pub(crate) fn upper_inverse(r: MatRef<'_, f64>) -> Option<Mat<f64>> {
+    let size = r.ncols();
+    if r.nrows() < size || (0..size).any(|k| r[(k, k)] == 0.0) {
+        return None;
+    }
     let mut inverse = Mat::identity(size, size);
-    solve_upper_triangular_in_place(r.as_ref(), inverse.as_mut(), Par::Seq);
-    Some((r, inverse))
+    solve_upper_triangular_in_place(r, inverse.as_mut(), Par::Seq);
+    Some(inverse)
 }
 
 /// Long matrices would go through faer's QR first, which drops small columns: see the module

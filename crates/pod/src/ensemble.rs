@@ -1,8 +1,9 @@
-use crate::product::Columns;
+use crate::mean::Mean;
+use crate::product::{Columns, block};
 use crate::reduction::Blocks;
 use crate::spectrum::Spectrum;
 use crate::{InnerProduct, Options, PodError, SnapshotSource, Truncation, time_weights};
-use faer::{Mat, MatMut};
+use faer::{ColRef, Mat, MatMut};
 use std::ops::Range;
 
 /// The snapshots as the algorithms see them: checked, centred, weighted in time.
@@ -16,7 +17,10 @@ pub(crate) struct Ensemble<'a> {
     pub time_weights: Vec<f64>,
     /// `s_j`, all one without time weights.
     pub scale: Vec<f64>,
-    pub mean: Option<Vec<f64>>,
+    pub mean: Option<Mean>,
+    /// `sum_i W_ii <x_i²>` of the fluctuation where W couples rows: the energy that errors of the
+    /// size of the entries have. Zero where it is the energy of the snapshots itself.
+    amplified: f64,
 }
 
 impl<'a> Ensemble<'a> {
@@ -33,9 +37,13 @@ impl<'a> Ensemble<'a> {
             Some(_) => time_weights.iter().map(|q| (m as f64 * q).sqrt()).collect(),
             None => vec![1.0; m],
         };
-        let mut ensemble = Self { source, product, options, time_weights, scale, mean: None };
+        let (mean, amplified) = (None, 0.0);
+        let mut ensemble = Self { source, product, options, time_weights, scale, mean, amplified };
         if options.center {
             ensemble.mean = Some(ensemble.time_mean()?);
+        }
+        if product.couples_rows() {
+            ensemble.amplified = ensemble.amplified_energy()?;
         }
         Ok(ensemble)
     }
@@ -59,36 +67,49 @@ impl<'a> Ensemble<'a> {
         Ok(())
     }
 
-    /// The spectrum of these eigenvalues, with a noise floor relative to the first.
-    pub fn spectrum(
-        &self,
-        values: Vec<f64>,
-        floor: f64,
-        reveals_rank: bool,
-    ) -> Result<Spectrum, PodError> {
+    /// The spectrum of these eigenvalues, with the floor under which they are noise.
+    ///
+    /// Entries are known to `eps` of themselves, before the mean is subtracted: that noise has at
+    /// most the energy `eps² sum_i W_ii <x_i²>`, and the reflections of M columns make
+    /// `M eps² lambda_1` of a zero, both with a factor of 16 for what adds up.
+    ///
+    /// * `squaring`: the energy that goes missing where the algorithm squares, if it does
+    pub fn spectrum(&self, values: Vec<f64>, squaring: Option<f64>) -> Result<Spectrum, PodError> {
         let (snapshots, centred) = (self.scale.len(), self.mean.is_some());
-        Spectrum::new(values, floor, reveals_rank).ok_or(PodError::NoEnergy { snapshots, centred })
+        let first = values.first().map_or(0.0, |l| snapshots as f64 * l);
+        let steady = self.mean.as_ref().map_or(0.0, |mean| mean.amplified_energy(self.product));
+        let round_off = (4.0 * f64::EPSILON).powi(2) * first.max(self.amplified + steady);
+        Spectrum::new(values, round_off, squaring).ok_or(PodError::NoEnergy { snapshots, centred })
     }
 
-    /// `<u> = u_0 + sum_j q_j (u_j - u_0)`: exact where the snapshots are constant.
-    fn time_mean(&self) -> Result<Vec<f64>, PodError> {
+    /// Energy that goes missing where products `uᵀ (W u)` are formed: `M eps lambda_1`, or
+    /// `8 eps sum_i W_ii <x_i²>` where W takes differences of large entries.
+    pub fn squaring(&self, lambda: &[f64]) -> f64 {
+        let first = lambda.first().map_or(0.0, |l| self.scale.len() as f64 * l);
+        f64::EPSILON * first.max(8.0 * self.amplified)
+    }
+
+    fn time_mean(&self) -> Result<Mean, PodError> {
         let (n, m) = self.shape();
         let part = |rows: Range<usize>| {
             let mut x = Mat::zeros(rows.len(), m);
             read_checked(self.source, rows, 0..m, x.as_mut())?;
-            let mut mean: Vec<f64> = x.col(0).iter().copied().collect();
-            for (q, column) in self.time_weights.iter().zip(x.col_iter()) {
-                for (i, mean) in mean.iter_mut().enumerate() {
-                    *mean += q * (column[i] - x[(i, 0)]);
-                }
-            }
-            Ok(mean)
+            Ok(Mean::new(x.as_ref(), &self.time_weights))
         };
-        let join = |mut top: Vec<f64>, bottom: Vec<f64>| {
-            top.extend(bottom);
-            top
+        Blocks::for_products(n, m).reduce(self.options.par, &part, &Mean::above)
+    }
+
+    fn amplified_energy(&self) -> Result<f64, PodError> {
+        let (n, m) = self.shape();
+        let diagonal = self.product.diagonal();
+        let part = |rows: Range<usize>| {
+            let z = block(self, rows.clone(), 0..m)?;
+            let of_column = |column: ColRef<'_, f64>| -> f64 {
+                column.iter().zip(&diagonal[rows.clone()]).map(|(x, w)| w * x * x).sum()
+            };
+            Ok::<_, PodError>(z.col_iter().map(of_column).sum::<f64>() / m as f64)
         };
-        Blocks::for_products(n, m).reduce(self.options.par, &part, &join)
+        Blocks::for_products(n, m).reduce(self.options.par, &part, &|a, b| a + b)
     }
 }
 
@@ -105,7 +126,7 @@ impl Columns for Ensemble<'_> {
     ) -> Result<(), PodError> {
         read_checked(self.source, rows.clone(), cols.clone(), out.as_mut())?;
         if let Some(mean) = &self.mean {
-            subtract_from_columns(&mean[rows], out.as_mut());
+            mean.subtract(rows, out.as_mut());
         }
         if self.options.time_weights.is_some() {
             for (column, s) in out.as_mut().col_iter_mut().zip(&self.scale[cols]) {

@@ -44,6 +44,30 @@ pub enum PodError {
         /// Snapshots of the second.
         other_snapshots: usize,
     },
+    /// Two trajectories that are compared were sampled at different times.
+    #[error(
+        "snapshot {snapshot}, counted from 0, is at {time} s in one trajectory and at \
+         {other_time} s in the other: sample both at the same times"
+    )]
+    Times {
+        /// Index of the first snapshot whose times differ, from 0.
+        snapshot: usize,
+        /// Its time in the first trajectory, in s.
+        time: f64,
+        /// Its time in the second, in s.
+        other_time: f64,
+    },
+    /// Snapshots and modes belong to different spaces.
+    #[error(
+        "snapshots have {unknowns} unknowns but the modes have {modes}: \
+         project fields of the grid and components that the modes were made from"
+    )]
+    Modes {
+        /// Length n of a snapshot.
+        unknowns: usize,
+        /// Length of a mode.
+        modes: usize,
+    },
     /// An entry is NaN or infinite.
     #[error(
         "snapshot {snapshot} (time {time} s) holds {value} in row {row}, counted from 0: \
@@ -120,7 +144,7 @@ pub enum PodError {
 
 fn no_energy(centred: bool) -> &'static str {
     if centred {
-        "they are constant in time; do not subtract the mean, or record a flow that moves"
+        "they are constant in time to round-off; do not subtract the mean, or record a flow that moves"
     } else {
         "every entry is zero or too small to be squared"
     }

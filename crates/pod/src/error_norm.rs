@@ -14,18 +14,29 @@ use faer::{Mat, MatRef};
 /// * `w`: the inner product in which the modes are orthonormal
 ///
 /// # Errors
-/// [`PodError::Dimension`], [`PodError::Empty`], [`PodError::NonFinite`], [`PodError::Read`],
-/// and [`PodError::NoEnergy`] where every snapshot is zero.
+/// [`PodError::Dimension`], [`PodError::Modes`], [`PodError::Empty`], [`PodError::NonFinite`],
+/// [`PodError::Overflow`], [`PodError::Read`], and [`PodError::NoEnergy`] where every snapshot is
+/// zero.
 ///
-/// # Panics
-/// If the modes have another length than the snapshots.
+/// ```
+/// use lumley_pod::{Identity, MemorySnapshots, Options, Truncation, projection_residuals, svd};
+/// let (w, x) = (Identity::new(2), faer::mat![[3.0, 0.0], [0.0, 4.0]]);
+/// let snapshots = MemorySnapshots::new(x, vec![0.0, 1.0]);
+/// let options = Options { truncation: Truncation::Modes(2), ..Options::default() };
+/// let res = projection_residuals(&svd(&snapshots, &w, &options)?, &snapshots, &w)?;
+/// assert!((res[0] - 0.75).abs() < 1e-14 && res[1] < 1e-14);
+/// # Ok::<(), lumley_pod::PodError>(())
+/// ```
 pub fn projection_residuals(
     basis: &ReducedBasis,
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
 ) -> Result<Vec<f64>, PodError> {
     check_dimensions(x, w)?;
-    assert_eq!(basis.modes.nrows(), x.dim(), "modes and snapshots have one length");
+    let (unknowns, length) = (x.dim(), basis.modes.nrows());
+    if unknowns != length {
+        return Err(PodError::Modes { unknowns, modes: length });
+    }
     let mut modes = basis.modes.clone();
     w.factor(0, modes.as_mut());
     let mean = weighted_mean(basis, w);
@@ -35,7 +46,7 @@ pub fn projection_residuals(
         let mut z = Mat::zeros(x.dim(), cols.len());
         read_checked(x, 0..x.dim(), cols, z.as_mut())?;
         w.factor(0, z.as_mut());
-        largest = largest_norm(z.as_ref()).max(largest);
+        largest = largest_norm(z.as_ref())?.max(largest);
         subtract_from_columns(&mean, z.as_mut());
         let a = transposed_product(modes.as_ref(), z.as_ref());
         z -= product(modes.as_ref(), a.as_ref());
@@ -57,24 +68,25 @@ pub fn projection_residuals(
 /// * `u`: the reference, `v`: the other, on the same grid at the same times
 ///
 /// # Errors
-/// [`PodError::Trajectories`] where the shapes differ, and those of [`projection_residuals`].
+/// [`PodError::Trajectories`] where the shapes differ, [`PodError::Times`] where the times differ
+/// by more than 1e-9 of the interval, which is what adding up time steps may do, and those of
+/// [`projection_residuals`].
+///
+/// ```
+/// use lumley_pod::{Identity, MemorySnapshots, trajectory_residual};
+/// let u = MemorySnapshots::new(faer::mat![[3.0, 0.0], [4.0, 1.0]], vec![0.0, 1.0]);
+/// let v = MemorySnapshots::new(faer::mat![[3.0, 0.0], [4.0, 1.5]], vec![0.0, 1.0]);
+/// assert!((trajectory_residual(&u, &v, &Identity::new(2))? - 0.1).abs() < 1e-15);
+/// # Ok::<(), lumley_pod::PodError>(())
+/// ```
 pub fn trajectory_residual(
     u: &dyn SnapshotSource,
     v: &dyn SnapshotSource,
     w: &dyn InnerProduct,
 ) -> Result<f64, PodError> {
     check_dimensions(u, w)?;
+    check_same_samples(u, v)?;
     let (n, m) = (u.dim(), u.times().len());
-    let (other_unknowns, other_snapshots) = (v.dim(), v.times().len());
-    if (n, m) != (other_unknowns, other_snapshots) {
-        let (unknowns, snapshots) = (n, m);
-        return Err(PodError::Trajectories {
-            unknowns,
-            snapshots,
-            other_unknowns,
-            other_snapshots,
-        });
-    }
     let (mut largest, mut error) = (0.0_f64, 0.0_f64);
     for cols in panels(m) {
         let (mut z, mut difference) = (Mat::zeros(n, cols.len()), Mat::zeros(n, cols.len()));
@@ -83,8 +95,8 @@ pub fn trajectory_residual(
         difference -= &z;
         w.factor(0, z.as_mut());
         w.factor(0, difference.as_mut());
-        largest = largest_norm(z.as_ref()).max(largest);
-        error = largest_norm(difference.as_ref()).max(error);
+        largest = largest_norm(z.as_ref())?.max(largest);
+        error = largest_norm(difference.as_ref())?.max(error);
     }
     if largest > 0.0 { Ok(error / largest) } else { Err(no_energy(u)) }
 }
@@ -97,8 +109,36 @@ fn weighted_mean(basis: &ReducedBasis, w: &dyn InnerProduct) -> Vec<f64> {
     mean.col(0).iter().copied().collect()
 }
 
-fn largest_norm(z: MatRef<'_, f64>) -> f64 {
-    z.col_iter().map(|column| column.norm_l2()).fold(0.0, f64::max)
+/// Two trajectories on one grid at the same times.
+fn check_same_samples(u: &dyn SnapshotSource, v: &dyn SnapshotSource) -> Result<(), PodError> {
+    let (unknowns, snapshots) = (u.dim(), u.times().len());
+    let (other_unknowns, other_snapshots) = (v.dim(), v.times().len());
+    if (unknowns, snapshots) != (other_unknowns, other_snapshots) {
+        return Err(PodError::Trajectories {
+            unknowns,
+            snapshots,
+            other_unknowns,
+            other_snapshots,
+        });
+    }
+    let interval = u.times()[snapshots - 1] - u.times()[0];
+    for (snapshot, (&time, &other_time)) in u.times().iter().zip(v.times()).enumerate() {
+        let round_off = 1e-9 * interval.abs() + 4.0 * f64::EPSILON * time.abs();
+        let same = (time - other_time).abs() <= round_off;
+        if !same {
+            return Err(PodError::Times { snapshot, time, other_time });
+        }
+    }
+    Ok(())
+}
+
+fn largest_norm(z: MatRef<'_, f64>) -> Result<f64, PodError> {
+    let squares = || z.col_iter().map(|column| column.squared_norm_l2());
+    if squares().all(f64::is_finite) {
+        Ok(squares().fold(0.0, f64::max).sqrt())
+    } else {
+        Err(PodError::Overflow)
+    }
 }
 
 fn no_energy(x: &dyn SnapshotSource) -> PodError {

@@ -31,6 +31,7 @@ mod error;
 mod error_norm;
 mod householder;
 mod inner_product;
+mod mean;
 mod note;
 mod options;
 mod product;

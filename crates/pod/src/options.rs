@@ -34,7 +34,8 @@ pub struct Options {
     /// Whether the time mean is subtracted first, with the weights of the time average.
     pub center: bool,
     /// Weights of the M snapshots in the time average, positive; they are scaled to the sum 1.
-    /// By default each is 1/M. See [`time_weights`](crate::time_weights) for unequal steps.
+    /// By default each is 1/M. A snapshot of share q has coefficients with an error of about
+    /// `eps sigma_1/sqrt(M q)`; shares under 1e-30 are refused. See [`time_weights`](crate::time_weights) for unequal steps.
     pub time_weights: Option<Vec<f64>>,
     /// Threads for the work that grows with the number of unknowns; by default one. The result
     /// is the same to the last bit.

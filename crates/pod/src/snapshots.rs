@@ -5,6 +5,29 @@ use std::ops::Range;
 /// Where snapshots come from: memory, disk, or the rows that one machine owns.
 ///
 /// The snapshot matrix X has one column per snapshot, n rows and M columns.
+///
+/// ```
+/// use faer::MatMut;
+/// use lumley_pod::{Identity, Options, SnapshotSource, auto};
+/// use std::{io, ops::Range};
+/// /// A standing wave on a line of 100 points, computed where it is read.
+/// struct Wave(Vec<f64>);
+/// impl SnapshotSource for Wave {
+///     fn dim(&self) -> usize { 100 }
+///     fn times(&self) -> &[f64] { &self.0 }
+///     fn block(&self, rows: Range<usize>, cols: Range<usize>, mut out: MatMut<'_, f64>)
+///     -> io::Result<()> {
+///         for (t, column) in self.0[cols].iter().zip(out.as_mut().col_iter_mut()) {
+///             let at = |i: usize| (0.1 * i as f64).sin() * t.cos();
+///             rows.clone().zip(column.iter_mut()).for_each(|(i, x)| *x = at(i));
+///         }
+///         Ok(())
+///     }
+/// }
+/// let basis = auto(&Wave(vec![0.0, 0.5, 1.0]), &Identity::new(100), &Options::default())?;
+/// assert_eq!(basis.size(), 1);
+/// # Ok::<(), lumley_pod::PodError>(())
+/// ```
 pub trait SnapshotSource: Sync {
     /// Length n of a snapshot.
     fn dim(&self) -> usize;

@@ -7,21 +7,22 @@ pub(crate) struct Spectrum {
     pub values: Vec<f64>,
     /// Those at or under this are noise.
     pub floor: f64,
-    /// Whether what is under the floor is round-off of the snapshots themselves, so that the
-    /// number above it is their rank.
-    pub reveals_rank: bool,
+    /// Energy that the algorithm loses by squaring; nothing where it does not square, so that what
+    /// is under the floor is round-off of the snapshots themselves and the number above it is
+    /// their rank.
+    pub squaring: Option<f64>,
 }
 
 impl Spectrum {
-    /// * `floor`: relative to the first eigenvalue
+    /// * `round_off`: energy that round-off of the snapshots can have
     ///
-    /// Returns nothing where there is no energy.
-    pub fn new(mut values: Vec<f64>, floor: f64, reveals_rank: bool) -> Option<Self> {
+    /// Returns nothing where there is no more energy than that.
+    pub fn new(mut values: Vec<f64>, round_off: f64, squaring: Option<f64>) -> Option<Self> {
         for value in &mut values {
             *value = value.max(0.0);
         }
-        let first = values.first().copied().filter(|l| *l >= f64::MIN_POSITIVE)?;
-        Some(Self { values, floor: floor * first, reveals_rank })
+        values.first().filter(|l| **l >= f64::MIN_POSITIVE && **l > round_off)?;
+        Some(Self { values, floor: round_off.max(squaring.unwrap_or(0.0)), squaring })
     }
 
     /// Eigenvalues above the floor.
@@ -53,7 +54,7 @@ impl Spectrum {
         let Truncation::Modes(requested) = truncation else { return (kept, None) };
         let note = if requested <= rank {
             None
-        } else if self.reveals_rank || rank == self.values.len() {
+        } else if self.squaring.is_none() || rank == self.values.len() {
             Some(Note::Rank { requested, rank })
         } else {
             Some(Note::NoiseFloor { requested, kept, floor: self.floor })

@@ -25,6 +25,17 @@ pub enum TimeWeightsError {
         /// The weight.
         value: f64,
     },
+    /// A weight is nothing beside the others.
+    #[error(
+        "time weight {index}, counted from 0, is {share:e} of the sum of all: \
+         it must be at least 1e-30; leave such a snapshot out"
+    )]
+    Negligible {
+        /// Index of the weight, from 0.
+        index: usize,
+        /// The weight divided by the sum of all.
+        share: f64,
+    },
     /// The trapezoid rule needs an interval.
     #[error("{times} times make no interval: the trapezoid rule needs at least 2")]
     TooFew {
@@ -75,6 +86,9 @@ pub fn trapezoid(times: &[f64]) -> Result<Vec<f64>, TimeWeightsError> {
     Ok((0..m).map(|j| weight(j) / (2.0 * span)).collect())
 }
 
+/// Coefficients are divided by the root of a share, which must not vanish.
+const LEAST_SHARE: f64 = 1e-30;
+
 /// The weights of M snapshots, scaled to the sum 1: 1/M each where none are given.
 pub(crate) fn normalised(
     given: Option<&[f64]>,
@@ -93,5 +107,9 @@ pub(crate) fn normalised(
     // Divided by the largest first, the sum neither overflows nor vanishes.
     let largest = weights.iter().fold(0.0, |a: f64, &q| a.max(q));
     let sum: f64 = weights.iter().map(|q| q / largest).sum();
-    Ok(weights.iter().map(|q| q / largest / sum).collect())
+    let shares: Vec<f64> = weights.iter().map(|q| q / largest / sum).collect();
+    match shares.iter().position(|share| *share < LEAST_SHARE) {
+        Some(index) => Err(TimeWeightsError::Negligible { index, share: shares[index] }),
+        None => Ok(shares),
+    }
 }

@@ -98,6 +98,11 @@ fn options_without_meaning() {
             matches!(e, PodError::TimeWeights(TimeWeightsError::Value { index: 2, .. }))
         });
     }
+    for tiny in [f64::MIN_POSITIVE, 1e-31] {
+        for_all(&x, &weights(&[1.0, 1.0, tiny]), |e| {
+            matches!(e, PodError::TimeWeights(TimeWeightsError::Negligible { index: 2, .. }))
+        });
+    }
 }
 
 #[test]

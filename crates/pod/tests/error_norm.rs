@@ -70,3 +70,35 @@ fn trajectories_are_compared_by_their_largest_distance() {
     let error = trajectory_residual(&zero, &u, &w).expect_err("no reference");
     assert!(matches!(error, PodError::NoEnergy { .. }));
 }
+
+#[test]
+fn trajectories_at_other_times_are_refused() {
+    let w = Identity::new(1);
+    let at = |times: [f64; 3]| MemorySnapshots::new(faer::mat![[1.0, 2.0, 3.0]], times.to_vec());
+    let u = at([0.0, 0.1, 0.2]);
+    assert!(trajectory_residual(&u, &at([0.0, 0.1, 0.1 + 0.1 + 1e-12]), &w).is_ok());
+    for (snapshot, other) in [(1, [0.0, 0.11, 0.2]), (2, [0.0, 0.1, f64::NAN])] {
+        let error = trajectory_residual(&u, &at(other), &w).expect_err("other times");
+        let named = matches!(error, PodError::Times { snapshot: k, .. } if k == snapshot);
+        assert!(named, "{error}");
+    }
+    let error = trajectory_residual(&u, &at([0.0, 0.11, 0.2]), &w).expect_err("other times");
+    assert!(error.to_string().contains("0.1 s in one") && error.to_string().contains("0.11 s"));
+}
+
+#[test]
+fn residuals_that_cannot_be_computed_are_errors() {
+    let w = Identity::new(N);
+    let basis = basis_of(&with_singular_values(&[1.0], (N, M), &w, 5), &w, false);
+    let mut large = common::random_matrix(N, 4, 1);
+    large[(3, 2)] = 1e200;
+    let large = snapshots(large);
+    let error = projection_residuals(&basis, &large, &w).expect_err("1e400 is no number");
+    assert!(matches!(error, PodError::Overflow), "{error}");
+    let error = trajectory_residual(&snapshots(Mat::ones(N, 4)), &large, &w).expect_err("1e400");
+    assert!(matches!(error, PodError::Overflow), "{error}");
+
+    let short = snapshots(common::random_matrix(7, 3, 1));
+    let error = projection_residuals(&basis, &short, &Identity::new(7)).expect_err("7 unknowns");
+    assert!(matches!(error, PodError::Modes { unknowns: 7, modes: N }), "{error}");
+}

@@ -1,3 +1,5 @@
+use crate::ProjectionKind;
+use lumley_body::joint::JointError;
 use std::fmt;
 
 /// Why a reduced model cannot be built or cannot go on.
@@ -26,6 +28,9 @@ pub enum ReducedError {
         /// The range it must lie in.
         expected: &'static str,
     },
+    /// The block is not a physical one.
+    #[error(transparent)]
+    Joint(JointError),
     /// An array of the wrong length.
     #[error("{what}: {found} given, but there must be {expected}")]
     Count {
@@ -122,7 +127,10 @@ pub enum ReducedError {
         mebibytes: usize,
     },
     /// The computation left every sensible range; the model keeps the state before the step.
-    #[error("the reduced model diverged at t = {time:.6} s: {cause}; {}", remedy(*step, *stable_step))]
+    #[error(
+        "the reduced model diverged at t = {time:.6} s: {cause}; {}",
+        remedy(*cause, *step, *stable_step, *projection)
+    )]
     Diverged {
         /// Time at which the step began, in s.
         time: f64,
@@ -130,6 +138,8 @@ pub enum ReducedError {
         step: f64,
         /// Longest stable step of explicit RK4 there, in s; `None` for an L-stable integrator.
         stable_step: Option<f64>,
+        /// The projection of the model.
+        projection: ProjectionKind,
         /// What was seen.
         cause: Divergence,
     },
@@ -155,7 +165,8 @@ pub enum Divergence {
     },
     /// The velocity grew beyond any sense.
     Speed {
-        /// Norm of the coefficients and the velocity of the body, in m/s times m^(1/2).
+        /// Norm of the coefficients and the velocity of the body in L2 of the modes' domain: in m^(3/2)/s
+        /// on a fixed grid, in m/s in the reference frame.
         norm: f64,
         /// Largest norm that is taken seriously.
         limit: f64,
@@ -164,6 +175,13 @@ pub enum Divergence {
     StepUnderflow {
         /// Last step tried, in s.
         tried: f64,
+    },
+    /// An adaptive integrator did not come to the end of the step.
+    Substeps {
+        /// Substeps tried.
+        count: usize,
+        /// Time that was left, in s.
+        left: f64,
     },
 }
 
@@ -183,20 +201,39 @@ impl fmt::Display for Divergence {
             Self::StepUnderflow { tried } => {
                 write!(f, "the error control rejected even a step of {tried:.1e} s")
             }
+            Self::Substeps { count, left } => {
+                write!(f, "{count} substeps of the error control left {left:.2e} s of the step")
+            }
         }
     }
 }
 
-/// What to do about a divergence: it depends on whether the step was too long.
-fn remedy(step: f64, stable_step: Option<f64>) -> String {
-    match stable_step {
-        Some(stable) if step > stable => format!(
+/// What to do about a divergence: it depends on what was seen, and on whether the step was too long.
+fn remedy(
+    cause: Divergence,
+    step: f64,
+    stable_step: Option<f64>,
+    projection: ProjectionKind,
+) -> String {
+    let model = if projection.reference_frame() {
+        "other modes"
+    } else {
+        "the projection `mapped`, or other modes"
+    };
+    match (cause, stable_step) {
+        (_, Some(stable)) if step > stable => format!(
             "the step {step:.2e} s exceeds the stable step {stable:.2e} s of RK4: \
              take a shorter step or the integrator `rosenbrock`"
         ),
+        (Divergence::Outside { .. }, _) => format!(
+            "take a longer domain or a slower start; where the full-order model stays inside, take {model}"
+        ),
+        (Divergence::StepUnderflow { .. }, _) => format!(
+            "take a larger tolerance; if that does not help, the model itself is unstable: take {model}"
+        ),
+        (Divergence::Substeps { .. }, _) => "take a larger tolerance or a shorter step".into(),
         _ => format!(
-            "the step {step:.2e} s is not the cause, the model itself is unstable: take the projection \
-             `mapped`, or other modes"
+            "the step {step:.2e} s is not the cause, the model itself is unstable: take {model}"
         ),
     }
 }

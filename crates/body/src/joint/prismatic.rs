@@ -1,3 +1,4 @@
+use super::JointError;
 use serde::{Deserialize, Serialize};
 
 /// A mass that slides along one axis on a spring and a damper: the block of the piston, paper eq. (34).
@@ -29,6 +30,27 @@ pub struct Prismatic {
 }
 
 impl Prismatic {
+    /// Whether every constant is physical: a positive mass, a spring and a damper that give no energy,
+    /// and any finite rest position.
+    ///
+    /// # Errors
+    /// The first one that is not, with its value.
+    pub fn check(&self) -> Result<(), JointError> {
+        let Self { mass, stiffness, damping, rest_length } = *self;
+        let not_negative = "0 or a finite number above";
+        let checks = [
+            (mass > 0.0, "mass", mass, "kg", "a finite number above 0"),
+            (stiffness >= 0.0, "stiffness", stiffness, "N/m", not_negative),
+            (damping >= 0.0, "damping", damping, "N s/m", not_negative),
+            (true, "rest length", rest_length, "m", "a finite number"),
+        ];
+        let bad =
+            checks.into_iter().find(|(in_range, _, value, ..)| !(*in_range && value.is_finite()));
+        bad.map_or(Ok(()), |(_, name, value, unit, expected)| {
+            Err(JointError::Quantity { name, value, unit, expected })
+        })
+    }
+
     /// Force of spring and damper at position `x` in m and velocity `v` in m/s, in N.
     pub fn force(&self, x: f64, v: f64) -> f64 {
         -self.stiffness * (x - self.rest_length) - self.damping * v
@@ -101,8 +123,36 @@ mod tests {
                 let a = (at(t + h).1 - at(t - h).1) / (2.0 * h);
                 assert!((a - joint.acceleration(x, v, 0.0)).abs() < 1e-7, "b = {damping}, t = {t}");
             }
-            assert_eq!(joint.free_motion(0.9, -0.4, 0.0), (0.9, -0.4));
+            let (x, v) = joint.free_motion(0.9, -0.4, 0.0);
+            // x − x0 + x0 is x to a unit in the last place.
+            assert!((x - 0.9).abs() <= f64::EPSILON && (v + 0.4).abs() <= f64::EPSILON, "{x} {v}");
         }
+    }
+
+    #[test]
+    fn constants_out_of_range_are_named() {
+        let refusal = |change: fn(&mut Prismatic, f64), value| {
+            let mut joint = block(0.1);
+            change(&mut joint, value);
+            joint.check().map_err(|error| error.to_string())
+        };
+        for bad in [f64::NAN, f64::INFINITY, -1.0] {
+            let found = [
+                (refusal(|j, v| j.mass = v, bad), "mass"),
+                (refusal(|j, v| j.stiffness = v, bad), "stiffness"),
+                (refusal(|j, v| j.damping = v, bad), "damping"),
+            ];
+            for (refusal, name) in found {
+                let message = refusal.expect_err("out of range");
+                assert!(message.starts_with(&format!("{name} is {bad} ")), "{message}");
+            }
+        }
+        assert!(refusal(|j, v| j.mass = v, 0.0).is_err());
+        let length = |value| refusal(|j, v| j.rest_length = v, value);
+        assert!(length(f64::NAN).is_err() && length(f64::INFINITY).is_err());
+        // A slack spring may want to be behind the wall.
+        assert_eq!(length(-0.2), Ok(()));
+        assert_eq!(block(0.0).check(), Ok(()));
     }
 
     #[test]

@@ -69,6 +69,13 @@ impl DofLayout {
 }
 
 /// A Lagrange element on its reference cell: function `i` is one at node `i`, zero at the others.
+///
+/// ```
+/// use lumley_fem::element::{Element, P1};
+/// let (mut phi, mut dphi) = ([0.0; 2], [[0.0; 2]; 2]);
+/// P1.tabulate([0.25, 0.0], &mut phi, &mut dphi);
+/// assert_eq!((phi, dphi), ([0.75, 0.25], [[-1.0, 0.0], [1.0, 0.0]]));
+/// ```
 pub trait Element: Sync {
     /// Largest p such that every polynomial of degree p is in the span.
     fn degree(&self) -> usize;

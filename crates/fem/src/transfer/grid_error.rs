@@ -1,3 +1,4 @@
+use super::{TransferError, finite_element};
 use crate::quadrature::gauss_legendre;
 use crate::{MovingField, Point, UniformGrid};
 
@@ -37,14 +38,22 @@ pub struct GridError {
 ///     fn solid_velocity(&self, _: Point, _: &mut [f64]) {}
 /// }
 /// let grid = UniformGrid::line(0.0, 1.0, 3);
-/// let error = grid_error(&Shear, &grid, &[0.0, 1.5, 3.0]);
+/// let error = grid_error(&Shear, &grid, &[0.0, 1.5, 3.0])?;
 /// assert!(error.distance < 1e-15);
 /// assert!((error.norm - 3_f64.sqrt()).abs() < 1e-14);
+/// # Ok::<(), lumley_fem::transfer::TransferError>(())
 /// ```
+///
+/// # Errors
+/// [`TransferError::NotCovered`] where a point of the fluid lies in no cell of the mesh.
 ///
 /// # Panics
 /// If `values` has not one entry for each component at each node.
-pub fn grid_error(field: &dyn MovingField, grid: &UniformGrid, values: &[f64]) -> GridError {
+pub fn grid_error(
+    field: &dyn MovingField,
+    grid: &UniformGrid,
+    values: &[f64],
+) -> Result<GridError, TransferError> {
     let components = field.components();
     assert_eq!(values.len(), components * grid.len(), "one value for each component and node");
     let [line, column] = [0, 1].map(|d| points(grid.nodes()[d]));
@@ -55,7 +64,7 @@ pub fn grid_error(field: &dyn MovingField, grid: &UniformGrid, values: &[f64]) -
     for (y, wy) in &column {
         for (x, wx) in &line {
             let point = [0, 1].map(|d| lower[d] + [x, y][d] * spacing[d]);
-            global_velocity_at(field, point, &mut exact);
+            global_velocity_at(field, point, &mut exact)?;
             for (c, exact) in exact.iter().enumerate() {
                 let v = interpolate(&values[c * grid.len()..][..grid.len()], grid, [*x, *y]);
                 distance += wx * wy * (v - exact) * (v - exact);
@@ -63,7 +72,7 @@ pub fn grid_error(field: &dyn MovingField, grid: &UniformGrid, values: &[f64]) -
             }
         }
     }
-    GridError { distance: (distance * cell_size).sqrt(), norm: (norm * cell_size).sqrt() }
+    Ok(GridError { distance: (distance * cell_size).sqrt(), norm: (norm * cell_size).sqrt() })
 }
 
 /// Quadrature points of all cells of a direction with this many nodes, in cells; weights add up to their
@@ -78,10 +87,17 @@ fn points(nodes: usize) -> Vec<(f64, f64)> {
     }
 }
 
-fn global_velocity_at(field: &dyn MovingField, point: Point, v: &mut [f64]) {
-    if !field.is_fluid(point) || field.fluid_velocity(point, v).is_none() {
-        field.solid_velocity(point, v);
+/// Paper eq. (30) by the finite elements of the mesh.
+fn global_velocity_at(
+    field: &dyn MovingField,
+    point: Point,
+    v: &mut [f64],
+) -> Result<(), TransferError> {
+    if field.is_fluid(point) {
+        return finite_element::interpolate(field, point, v);
     }
+    field.solid_velocity(point, v);
+    Ok(())
 }
 
 /// The (bi)linear field at a point counted in cells from the lower corner.
@@ -137,11 +153,69 @@ mod tests {
             let grid = UniformGrid::rectangle([0.0; 2], [1.0; 2], [n + 1, n + 1]);
             let values: Vec<f64> =
                 (0..grid.len()).map(|k| grid.point(k)).map(|[x, y]| x * y * y).collect();
-            let error = grid_error(&Cubic, &grid, &values);
+            let error = grid_error(&Cubic, &grid, &values).expect("fluid everywhere");
             assert!((error.norm - 15_f64.sqrt().recip()).abs() < 1e-5, "{}", error.norm);
             error.distance
         };
         let order = (error(4) / error(8)).log2();
         assert!((order - 2.0).abs() < 0.02, "order {order}");
+    }
+
+    /// Fluid up to `end` on a line, v = x/end; a solid with v = 1 beyond. The mesh ends at `covered`.
+    struct Stretched {
+        end: f64,
+        covered: f64,
+    }
+
+    impl MovingField for Stretched {
+        fn components(&self) -> usize {
+            1
+        }
+        fn nodes(&self) -> usize {
+            0
+        }
+        fn position(&self, _: usize) -> Point {
+            unreachable!("it has no nodes")
+        }
+        fn nodal_velocity(&self, _: usize, _: &mut [f64]) {}
+        fn is_fluid(&self, [x, _]: Point) -> bool {
+            x <= self.end
+        }
+        fn fluid_velocity(&self, [x, _]: Point, v: &mut [f64]) -> Option<()> {
+            v[0] = (x <= self.covered).then_some(x / self.end)?;
+            Some(())
+        }
+        fn solid_velocity(&self, _: Point, v: &mut [f64]) {
+            v[0] = 1.0;
+        }
+    }
+
+    fn stretched(field: &Stretched, nodes: usize) -> Result<GridError, TransferError> {
+        let grid = UniformGrid::line(0.0, 1.0, nodes);
+        let at = |k: usize| (grid.point(k)[0] / field.end).min(1.0);
+        grid_error(field, &grid, &(0..nodes).map(at).collect::<Vec<_>>())
+    }
+
+    /// `||v||² = end/3 + (1 − end)`. In the middle of a cell of length h, a kink of the slope s leaves
+    /// `v_h − v = s h/4` there, linear to zero at the cell's ends: `distance² = h (s h/4)²/3`.
+    #[test]
+    fn a_solid_counts_and_a_kink_inside_of_a_cell_is_seen() -> Result<(), TransferError> {
+        let on_node = stretched(&Stretched { end: 0.5, covered: 0.5 }, 5)?;
+        assert!(on_node.distance < 1e-15, "{}", on_node.distance);
+        assert!((on_node.norm - (0.5_f64 / 3.0 + 0.5).sqrt()).abs() < 1e-14, "{}", on_node.norm);
+        for cells in [5, 15, 45] {
+            let found = stretched(&Stretched { end: 0.5, covered: 0.5 }, cells + 1)?;
+            let h = 1.0 / cells as f64;
+            let expected = (h / 3.0).sqrt() * 2.0 * h / 4.0;
+            assert!((found.distance / expected - 1.0).abs() < 1e-12, "{cells}: {found:?}");
+        }
+        Ok(())
+    }
+
+    #[test]
+    fn fluid_outside_of_the_mesh_is_an_error() {
+        let error = stretched(&Stretched { end: 0.8, covered: 0.6 }, 11).expect_err("a hole");
+        let TransferError::NotCovered([x, _]) = error else { panic!("{error}") };
+        assert!(x > 0.6 && x < 0.7, "{x}");
     }
 }

@@ -258,6 +258,10 @@ mod tests {
             let (end, others) = assembly.system.residuals.split_last().expect("cells");
             assert_eq!(others.as_flattened(), vec![0.0; 2 * (last - 1)]);
             assert!(end[1].abs() > 0.1);
+            let inside = assembly.interior.iter().take(last - 1);
+            assert!(inside.clone().all(|row| row.residual == 0.0), "interior nodes");
+            assert_eq!(inside.len(), (last - 1) * (P - 2));
+            assert!(assembly.interior.last().is_none_or(|row| row.residual.abs() > 0.1));
         }
     }
 

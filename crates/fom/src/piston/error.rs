@@ -1,3 +1,4 @@
+use lumley_body::joint::JointError;
 use std::io;
 
 /// Why a piston cannot be built or cannot make a step.
@@ -21,6 +22,9 @@ pub enum PistonError {
         /// What was expected.
         expected: &'static str,
     },
+    /// The block is not a physical one.
+    #[error(transparent)]
+    Joint(JointError),
     /// The block does not start inside of the domain.
     #[error(
         "initial position is {position} m, expected a position inside of the domain, above 0 and below {domain_length} m"

@@ -70,10 +70,7 @@ impl PistonParameters {
         positive("viscosity", self.viscosity, "m²/s")?;
         positive("domain length", self.domain_length, "m")?;
         not_negative("force factor", self.force_factor, "kg/m")?;
-        positive("mass", self.joint.mass, "kg")?;
-        not_negative("stiffness", self.joint.stiffness, "N/m")?;
-        not_negative("damping", self.joint.damping, "N s/m")?;
-        finite("rest length", self.joint.rest_length, "m")?;
+        self.joint.check().map_err(PistonError::Joint)?;
         finite("initial velocity", self.initial_velocity, "m/s")?;
         let (position, domain_length) = (self.initial_position, self.domain_length);
         if !(position > 0.0 && position < domain_length) {

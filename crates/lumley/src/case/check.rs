@@ -13,8 +13,8 @@ use std::path::Path;
 
 /// Most snapshots, and most steps between two.
 const MOST: f64 = 1e9;
-/// Largest array that a case may ask for, in bytes: beyond it, a slip of the pen is likelier than a wish.
-const LARGEST: f64 = 1e12;
+/// Most cells of a line: beyond it, a slip of the pen is likelier than a wish.
+const MOST_CELLS: usize = 1_000_000;
 
 /// Turns what was written into what is meant.
 pub(super) fn check(
@@ -186,20 +186,29 @@ fn models(ask: &Ask, file: &CaseFile) -> Result<(), CaseError> {
 
 fn sizes(ask: &Ask, file: &CaseFile, schedule: &Schedule) -> Result<(), CaseError> {
     let (cells, degree, nodes) = (file.mesh.cells, file.mesh.degree, file.grid.nodes);
-    let fits = |count: usize| count as f64 * 8.0 * schedule.snapshots() as f64 <= LARGEST;
     ask.that((1..=2).contains(&degree), "mesh.degree", degree, "1 or 2")?;
-    ask.that(cells >= 2, "mesh.cells", cells, "at least 2")?;
+    ask.that(
+        (2..=MOST_CELLS).contains(&cells),
+        "mesh.cells",
+        cells,
+        &format!("2 to {MOST_CELLS}"),
+    )?;
     ask.that(nodes >= 3, "grid.nodes", nodes, "at least 3")?;
-    let too_much = format!("a record of at most {:.0} GB", LARGEST / 1e9);
-    ask.that(fits(cells.saturating_mul(degree)), "mesh.cells", cells, &too_much)?;
-    ask.that(fits(nodes), "grid.nodes", nodes, &too_much)
+    // The record and two copies of it are in memory when models are compared.
+    let memory = crate::manifest::memory();
+    let fits = |count: usize| 24.0 * count as f64 * schedule.snapshots() as f64 <= memory;
+    let most = format!("a record of at most a third of this machine's {:.0} GB", memory / 1e9);
+    ask.that(fits(1), "record.interval", Number(schedule.interval), &most)?;
+    ask.that(fits(cells.saturating_mul(degree)), "mesh.cells", cells, &most)?;
+    ask.that(fits(nodes), "grid.nodes", nodes, &most)
 }
 
 /// The paper's inverse-distance weighting with the parameters of the case.
 fn inverse_distance(ask: &Ask, file: &CaseFile) -> Result<Transfer, CaseError> {
     let (power, neighbours) = (file.transfer.power, file.transfer.neighbours);
     let nodes = file.mesh.cells.saturating_mul(file.mesh.degree).saturating_add(1);
-    ask.positive("transfer.power", power, "1 (dimensionless)")?;
+    let number = "a positive, finite number";
+    ask.that(power.is_finite() && power > 0.0, "transfer.power", Number(power), number)?;
     let expected = format!("at least 1 and at most the mesh's {nodes} nodes");
     ask.that((1..=nodes).contains(&neighbours), "transfer.neighbours", neighbours, &expected)?;
     Ok(Transfer::InverseDistance { power, neighbours })

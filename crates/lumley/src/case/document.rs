@@ -33,20 +33,42 @@ impl Document {
     pub(super) fn case_file(&self) -> Result<CaseFile, CaseError> {
         let mut table: Table = toml::from_str(&self.text).map_err(|e| self.syntax(&e))?;
         let quick = match table.remove("quick") {
-            Some(Value::Table(quick)) if self.quick => Some(quick),
-            Some(Value::Table(_)) | None => None,
+            Some(Value::Table(quick)) => quick,
+            None => Table::new(),
             Some(other) => return Err(self.quick_not_a_table(&other)),
         };
-        if quick.is_none() && self.settings.is_empty() {
-            return toml::from_str(&self.text).map_err(|e| self.syntax(&e));
+        let mut quick_table = table.clone();
+        overlay(&mut quick_table, quick);
+        // A slip in [quick] is told even when nobody asks for it.
+        let mut quick_file = quick_table.clone();
+        self.apply_settings(&mut quick_file)?;
+        let quick_file = CaseFile::deserialize(Value::Table(quick_file));
+        if self.quick {
+            return quick_file.map_err(|e| self.overridden(&e));
         }
-        if let Some(quick) = quick {
-            merge(&mut table, quick);
-        }
+        let file = if self.settings.is_empty() {
+            toml::from_str(&self.text).map_err(|e| self.syntax(&e))?
+        } else {
+            self.apply_settings(&mut table)?;
+            CaseFile::deserialize(Value::Table(table)).map_err(|e| self.overridden(&e))?
+        };
+        quick_file.map(|_| file).map_err(|e| self.overridden(&e))
+    }
+
+    fn apply_settings(&self, table: &mut Table) -> Result<(), CaseError> {
         for (key, value) in &self.settings {
-            set(&mut table, key, value.clone())?;
+            set(table, key, value.clone())?;
+            // Each says how many modes: the one that is set stands for the other.
+            let other = match key.as_str() {
+                "pod.energy" => "modes",
+                "pod.modes" => "energy",
+                _ => continue,
+            };
+            if let Some(Value::Table(pod)) = table.get_mut("pod") {
+                pod.remove(other);
+            }
         }
-        CaseFile::deserialize(Value::Table(table)).map_err(|e| self.overridden(&e))
+        Ok(())
     }
 
     /// Where the value of `key`, such as `piston.mass`, was written.
@@ -59,6 +81,10 @@ impl Document {
             Some(line) => Place::Line(self.path.clone(), line),
             None => Place::Default(self.path.clone()),
         }
+    }
+
+    fn has_quick(&self) -> bool {
+        self.line("quick").is_some()
     }
 
     /// The line of `key`, or of the value that holds it; `rom.models.2.sigma` goes into a list.
@@ -88,7 +114,7 @@ impl Document {
         CaseError::Syntax {
             path: self.path.clone(),
             line,
-            message: error.to_string().trim_end().to_owned(),
+            message: plain(&error.to_string()),
             help: help(error.message()),
         }
     }
@@ -100,11 +126,11 @@ impl Document {
             return self.syntax(&own);
         }
         let settings = self.settings.iter().map(|(k, v)| format!("--set {k}={v}"));
-        let quick = self.quick.then(|| "[quick]".to_owned());
+        let quick = self.has_quick().then(|| "[quick]".to_owned());
         CaseError::Override {
             path: self.path.clone(),
             overrides: quick.into_iter().chain(settings).collect::<Vec<_>>().join(" "),
-            message: error.to_string().trim_end().to_owned(),
+            message: plain(&error.to_string()),
             help: help(error.message()),
         }
     }
@@ -128,7 +154,8 @@ fn parse_setting(text: &str) -> Result<(String, Value), CaseError> {
     let bad = || CaseError::Setting { text: text.to_owned() };
     let (key, value) = text.split_once('=').ok_or_else(bad)?;
     let key = key.trim();
-    if key.is_empty() || key.split('.').any(|part| part.trim().is_empty()) {
+    let mut parts = key.split('.').map(str::trim);
+    if parts.clone().any(str::is_empty) || parts.next() == Some("quick") {
         return Err(bad());
     }
     let value = value.trim();
@@ -138,12 +165,13 @@ fn parse_setting(text: &str) -> Result<(String, Value), CaseError> {
     Ok((key.to_owned(), parsed.unwrap_or_else(|| Value::String(value.to_owned()))))
 }
 
-fn merge(into: &mut Table, from: Table) {
-    for (key, value) in from {
-        match (into.get_mut(&key), value) {
-            (Some(Value::Table(old)), Value::Table(new)) => merge(old, new),
+/// Lays the sections of `over` over those of `table`, key by key; a value replaces a value whole.
+fn overlay(table: &mut Table, over: Table) {
+    for (name, value) in over {
+        match (table.get_mut(&name), value) {
+            (Some(Value::Table(section)), Value::Table(keys)) => section.extend(keys),
             (_, value) => {
-                into.insert(key, value);
+                table.insert(name, value);
             }
         }
     }
@@ -158,6 +186,16 @@ fn set(table: &mut Table, key: &str, value: Value) -> Result<(), CaseError> {
     }
     table.insert(last.to_owned(), value);
     Ok(())
+}
+
+/// A parser's message in words of the case file, not of the program.
+fn plain(message: &str) -> String {
+    let mut text = message.trim_end().replace("expected f64", "expected a number");
+    text = text.replace("expected usize", "expected a whole number");
+    for section in ["Piston", "Time", "Mesh", "Grid", "Record", "Transfer", "Pod", "Rom"] {
+        text = text.replace(&format!("struct {section}Section"), "a table of keys");
+    }
+    text
 }
 
 /// "did you mean", read from serde's own list of what it expected.

@@ -45,6 +45,12 @@ pub enum CaseError {
         /// The system's answer.
         source: std::io::Error,
     },
+    /// A directory, a device, or far too large.
+    #[error("{}: expected a case file, a text of at most 1 MiB\n  help: name the file itself, such as cases/piston/case.toml", path.display())]
+    NotAFile {
+        /// What was named.
+        path: PathBuf,
+    },
     /// Not TOML, an unknown key or a value of the wrong type.
     #[error("{}{}: {message}\n  help: {help}", path.display(), line.map_or(String::new(), |l| format!(", line {l}")))]
     Syntax {
@@ -71,7 +77,7 @@ pub enum CaseError {
     },
     /// `--set` without `key=value`.
     #[error(
-        "--set {text}: expected KEY=VALUE with a key such as piston.mass\n  help: write --set piston.mass=0.5"
+        "--set {text}: expected KEY=VALUE with a key of the case, such as piston.mass\n  help: write --set piston.mass=0.5"
     )]
     Setting {
         /// What was given.

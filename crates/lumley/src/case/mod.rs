@@ -24,6 +24,9 @@ use lumley_pod::Truncation;
 use lumley_rom::{Integrator, ModelChoice};
 use std::path::{Path, PathBuf};
 
+/// Largest case file that is read, in bytes.
+const LARGEST_FILE: u64 = 1 << 20;
+
 /// A checked case: everything `lumley run` needs, in SI units.
 ///
 /// ```
@@ -94,8 +97,12 @@ impl Case {
     /// [`CaseError`]: the file cannot be read, is not TOML, has a key that does not exist or a value that
     /// cannot be computed with.
     pub fn load(path: &Path, quick: bool, settings: &[String]) -> Result<Self, CaseError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| CaseError::Read { path: path.to_owned(), source })?;
+        let unreadable = |source| CaseError::Read { path: path.to_owned(), source };
+        let about = std::fs::metadata(path).map_err(unreadable)?;
+        if !about.is_file() || about.len() > LARGEST_FILE {
+            return Err(CaseError::NotAFile { path: path.to_owned() });
+        }
+        let text = std::fs::read_to_string(path).map_err(unreadable)?;
         Self::parse(path, &text, quick, settings)
     }
 
@@ -125,8 +132,10 @@ impl Case {
 
 fn name(path: &Path) -> String {
     let stem = path.file_stem().map_or("run".into(), |s| s.to_string_lossy().into_owned());
-    let parent = path.parent().and_then(Path::file_name);
-    match parent {
+    // `case.toml` in the working directory has that directory's name.
+    let whole = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let folder = whole.parent().and_then(Path::file_name);
+    match folder {
         Some(folder) if stem == "case" => folder.to_string_lossy().into_owned(),
         _ => stem,
     }

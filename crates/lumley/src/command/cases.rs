@@ -13,7 +13,7 @@ impl Arguments {
     pub(super) fn execute(&self) -> Result<(), Error> {
         let Some(name) = &self.name else {
             for case in CASES {
-                say(&format!("{:<12} {}", case.name, case.about));
+                say(&format!("{:<12} {}", case.name, case.about))?;
             }
             return Ok(());
         };
@@ -22,7 +22,7 @@ impl Arguments {
             value: name.clone(),
             expected: CASES.iter().map(|case| case.name).collect::<Vec<_>>().join(", "),
         })?;
-        say(case.text.trim_end());
+        say(case.text.trim_end())?;
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 use super::say;
 use crate::Error;
 use crate::case::Case;
+use crate::run::full_order;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -23,29 +24,30 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn execute(&self) -> Result<(), Error> {
         let case = Case::load(&self.case, self.quick, &self.set)?;
+        full_order(&case)?;
         let schedule = &case.schedule;
         let unknowns = case.cells * case.degree + 1;
         let (nodes, snapshots) = (case.grid.len(), schedule.snapshots());
         let record = (nodes + unknowns) * snapshots * size_of::<f64>();
         let models = case.models.len();
         let memory = 3 * record;
-        say(&format!("case            {}: {}", case.name, case.file.title));
+        say(&format!("case            {}: {}", case.name, case.file.title))?;
         say(&format!(
             "full-order      {unknowns} unknowns, {} steps of {} s",
             schedule.steps(),
             schedule.step
-        ));
-        say(&format!("record          {snapshots} snapshots of {nodes} and {unknowns} numbers"));
-        say(&format!("pod             {}", case.pod.method));
+        ))?;
+        say(&format!("record          {snapshots} snapshots of {nodes} and {unknowns} numbers"))?;
+        say(&format!("pod             {}", case.pod.method))?;
         say(&format!(
             "reduced models  {models}, {} steps of {} s each, 1 to 10 modes",
             case.rom_schedule.steps(),
             case.rom_schedule.step
-        ));
+        ))?;
         let time = STEP_PER_UNKNOWN * unknowns as f64 * schedule.steps() as f64;
-        say(&format!("time            about {time:.1} s for the full-order model"));
-        say(&format!("disk            about {}", bytes(record * (models + 2) / 2)));
-        say(&format!("memory          about {}", bytes(memory)));
+        say(&format!("time            about {time:.1} s for the full-order model"))?;
+        say(&format!("disk            about {}", bytes(record * (models + 2) / 2)))?;
+        say(&format!("memory          about {}", bytes(memory)))?;
         Ok(())
     }
 }

@@ -29,8 +29,7 @@ impl Arguments {
         } else if ending.as_deref() == Some("npz") {
             archive(path)
         } else {
-            array(&NpyMatrix::open(path)?, "array");
-            Ok(())
+            array(&NpyMatrix::open(path)?, "array")
         }
     }
 }
@@ -41,11 +40,11 @@ fn run_directory(path: &Path) -> Result<(), Error> {
     say(&format!(
         "run             {} of case {}, lumley {}",
         state, manifest.case, manifest.version
-    ));
+    ))?;
     for stage in &manifest.stages {
-        say(&format!("{:<15} {:.2} s", stage.name, stage.seconds));
+        say(&format!("{:<15} {:.2} s", stage.name, stage.seconds))?;
     }
-    super::run::headline(&summary);
+    super::run::headline(&summary)?;
     let inner = path.join("record");
     if inner.is_dir() { record(&inner) } else { Ok(()) }
 }
@@ -56,7 +55,7 @@ fn record(path: &Path) -> Result<(), Error> {
     let times = record.times();
     let (first, last) = (times.first().copied(), times.last().copied());
     let span = first.zip(last).map_or(String::new(), |(a, b)| format!(", t = {a} to {b} s"));
-    say(&format!("record          {} snapshots{span}; {blocks} blocks, all whole", times.len()));
+    say(&format!("record          {} snapshots{span}; {blocks} blocks, all whole", times.len()))?;
     for frame in &record.description().frames {
         let support = match &frame.support {
             Support::Grid(grid) => {
@@ -67,12 +66,12 @@ fn record(path: &Path) -> Result<(), Error> {
         };
         let names: Vec<String> =
             frame.components.iter().map(|c| format!("{} in {}", c.name, c.unit)).collect();
-        say(&format!("frame           {}: {} on {support}", frame.name, names.join(", ")));
+        say(&format!("frame           {}: {} on {support}", frame.name, names.join(", ")))?;
     }
     for series in &record.description().series {
         let names: Vec<String> =
             series.entries.iter().map(|c| format!("{} in {}", c.name, c.unit)).collect();
-        say(&format!("series          {}: {}", series.name, names.join(", ")));
+        say(&format!("series          {}: {}", series.name, names.join(", ")))?;
     }
     Ok(())
 }
@@ -80,11 +79,11 @@ fn record(path: &Path) -> Result<(), Error> {
 fn archive(path: &Path) -> Result<(), Error> {
     let archive = NpzReader::open(path)?;
     for name in archive.names() {
-        array(&archive.matrix(name)?, name);
+        array(&archive.matrix(name)?, name)?;
     }
     Ok(())
 }
 
-fn array(matrix: &NpyMatrix, name: &str) {
-    say(&format!("{name:<15} shape {:?}, {}", matrix.shape(), matrix.dtype()));
+fn array(matrix: &NpyMatrix, name: &str) -> Result<(), Error> {
+    say(&format!("{name:<15} shape {:?}, {}", matrix.shape(), matrix.dtype()))
 }

@@ -13,6 +13,7 @@ use crate::Error;
 use crate::directory::Existing;
 use crate::progress::Progress;
 use clap::{Args, Parser, Subcommand};
+use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -91,7 +92,9 @@ fn dispatch(command: Command) -> Result<(), Error> {
 }
 
 /// Prints a line of a command's result; a reader that went away is not an error.
-fn say(line: &str) {
-    use std::io::Write as _;
-    let _ = writeln!(std::io::stdout(), "{line}");
+fn say(line: &str) -> Result<(), Error> {
+    match writeln!(io::stdout(), "{line}") {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
 }

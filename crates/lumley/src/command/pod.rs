@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     /// Whether a row of the file is a snapshot or a column is
     #[arg(long, value_enum, default_value = "rows")]
     snapshots: Layout,
-    /// Times of the snapshots, in s
+    /// Times of the snapshots, in s; where the steps differ, the trapezoid rule weighs them
     #[arg(long, value_name = "T.npy")]
     times: Option<PathBuf>,
     /// Nodes of the uniform grid that the unknowns stand for, to draw the modes
@@ -61,6 +61,11 @@ fn methods() -> clap::builder::PossibleValuesParser {
 
 impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
+        if self.grid.len() > 3 {
+            let value = self.grid.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+            let expected = "one to three numbers of nodes".into();
+            return Err(Error::Argument { argument: "--grid", value, expected });
+        }
         let input = PodInput {
             path: self.snapshots_file.clone(),
             weights: self.weights.clone(),
@@ -81,12 +86,12 @@ impl Arguments {
         task.threads = self.threads.map_or(task.threads, usize::from);
         let (directory, summary) = decompose_snapshots(&input, &task, progress)?;
         if self.output.json {
-            say(&summary.to_json());
+            say(&summary.to_json())?;
         } else {
             let energy = summary.pod.cumulative_percent.last().copied().unwrap_or_default();
-            say(&format!("{} modes, {energy:.4} % of the energy", summary.pod.modes));
-            say(&format!("{}", directory.join("pod.npz").display()));
-            say(&format!("{}", directory.join("report.html").display()));
+            say(&format!("{} modes, {energy:.4} % of the energy", summary.pod.modes))?;
+            say(&format!("{}", directory.join("pod.npz").display()))?;
+            say(&format!("{}", directory.join("report.html").display()))?;
         }
         Ok(())
     }

@@ -17,9 +17,9 @@ impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
         let folder = completed(&self.run)?;
         progress.begin("report", 1);
-        run::write_report(folder, folder)?;
+        run::write_report(folder)?;
         progress.end("report.html");
-        say(&format!("{}", folder.join("report.html").display()));
+        say(&format!("{}", folder.join("report.html").display()))?;
         Ok(())
     }
 }

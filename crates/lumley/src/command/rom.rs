@@ -34,10 +34,10 @@ impl Arguments {
         task.threads = self.threads.map_or(task.threads, usize::from);
         let (directory, summary) = run::rerun(source, &self.set, self.compare, &task, progress)?;
         if self.output.json {
-            say(&summary.to_json());
+            say(&summary.to_json())?;
         } else {
-            super::run::headline(&summary);
-            say(&format!("{}", directory.join("report.html").display()));
+            super::run::headline(&summary)?;
+            say(&format!("{}", directory.join("report.html").display()))?;
         }
         Ok(())
     }

@@ -43,17 +43,17 @@ impl Arguments {
         task.checkpoint = Duration::from_secs(self.checkpoint);
         let (directory, summary) = run::run(&case, &task, progress)?;
         if self.output.json {
-            say(&summary.to_json());
+            say(&summary.to_json())?;
         } else {
-            headline(&summary);
-            say(&format!("{}", directory.join("report.html").display()));
+            headline(&summary)?;
+            say(&format!("{}", directory.join("report.html").display()))?;
         }
         Ok(())
     }
 }
 
 /// What a person wants to know first.
-pub(super) fn headline(summary: &Summary) {
+pub(super) fn headline(summary: &Summary) -> Result<(), Error> {
     for model in &summary.rom {
         let modes = model.shown.unwrap_or_default();
         let what = match (model.shown_res(), model.shown_step_us()) {
@@ -64,6 +64,7 @@ pub(super) fn headline(summary: &Summary) {
         let speedup = model.speedup.map_or(String::new(), |s| {
             format!(", {:.1} times as fast as a full model no less accurate", s.ratio)
         });
-        say(&format!("{:<28} {modes} modes: {what}{speedup}", model.label));
+        say(&format!("{:<28} {modes} modes: {what}{speedup}", model.label))?;
     }
+    Ok(())
 }

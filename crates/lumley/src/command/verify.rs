@@ -14,14 +14,14 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
         let scratch = Scratch::new();
-        say(&Row::heading());
+        say(&Row::heading())?;
         let all = table(&scratch.0, self.full, progress, |row| say(&row.line()))?;
         let failed = all.iter().filter(|row| !row.passes()).count();
         let rows = all.len();
         if failed > 0 {
             return Err(Error::Verification { failed, rows });
         }
-        say(&format!("all {rows} reference numbers reproduced"));
+        say(&format!("all {rows} reference numbers reproduced"))?;
         Ok(())
     }
 }

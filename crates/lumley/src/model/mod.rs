@@ -3,6 +3,7 @@
 mod piston;
 mod reduced_piston;
 
+use crate::run::Work;
 use lumley_body::BodyState;
 use lumley_fem::UniformGrid;
 use lumley_fem::transfer::Transfer;
@@ -54,20 +55,21 @@ pub trait Model {
 ///
 /// ```
 /// use lumley::model::{Model, Observer};
+/// use lumley::run::Work;
 /// struct Count(usize);
 /// impl<M: Model> Observer<M> for Count {
-///     fn observe(&mut self, _: &M, _: usize) -> Result<(), lumley::Error> {
+///     fn observe(&mut self, _: &M, _: usize, _: &Work) -> Result<(), lumley::Error> {
 ///         self.0 += 1;
 ///         Ok(())
 ///     }
 /// }
 /// ```
 pub trait Observer<M: Model> {
-    /// Called with the model at snapshot number `snapshot`.
+    /// Called with the model at snapshot number `snapshot`, after this `work`.
     ///
     /// # Errors
     /// Whatever stops the run.
-    fn observe(&mut self, model: &M, snapshot: usize) -> Result<(), crate::Error>;
+    fn observe(&mut self, model: &M, snapshot: usize, work: &Work) -> Result<(), crate::Error>;
 }
 
 /// Where a field is sampled.

@@ -23,8 +23,6 @@ pub struct BasisFile {
     pub modes: Mat<f64>,
     /// Coefficients of the snapshots, r x M.
     pub coefficients: Mat<f64>,
-    /// Eigenvalues lambda, r of them.
-    pub eigenvalues: Vec<f64>,
     /// The mean, where it was subtracted.
     pub mean: Option<Vec<f64>>,
 }
@@ -60,7 +58,6 @@ impl BasisFile {
         Ok(Self {
             modes: npz.read("modes")?,
             coefficients: npz.read("coefficients")?,
-            eigenvalues: npz.vector("eigenvalues")?,
             mean: if has_mean { Some(npz.vector("mean")?) } else { None },
         })
     }

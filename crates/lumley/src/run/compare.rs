@@ -1,36 +1,35 @@
+use super::Work;
 use crate::Error;
 use crate::model::{Frame, Model, Observer};
-use faer::{Mat, MatRef};
+use faer::Mat;
 use lumley_pod::{InnerProduct, SparseSpd};
 
 /// Res (32) of a run that is under way.
 pub(super) struct Comparison<'a> {
     frame: Frame,
-    full: MatRef<'a, f64>,
+    full: &'a Snapshots,
     product: &'a SparseSpd,
     difference: Mat<f64>,
     error: f64,
-    largest: f64,
 }
 
 impl<'a> Comparison<'a> {
-    pub(super) fn new(frame: Frame, full: MatRef<'a, f64>, product: &'a SparseSpd) -> Self {
-        let difference = Mat::zeros(full.nrows(), 1);
-        let largest = norms(full, product).into_iter().fold(0.0, f64::max);
-        Self { frame, full, product, difference, error: 0.0, largest }
+    pub(super) fn new(full: &'a Snapshots, frame: Frame, product: &'a SparseSpd) -> Self {
+        let difference = Mat::zeros(full.velocities.nrows(), 1);
+        Self { frame, full, product, difference, error: 0.0 }
     }
 
     pub(super) fn percent(&self) -> f64 {
-        100.0 * self.error / self.largest
+        100.0 * self.error / self.full.largest
     }
 }
 
 impl<M: Model> Observer<M> for Comparison<'_> {
-    fn observe(&mut self, model: &M, snapshot: usize) -> Result<(), Error> {
-        if snapshot < self.full.ncols() {
+    fn observe(&mut self, model: &M, snapshot: usize, _: &Work) -> Result<(), Error> {
+        if snapshot < self.full.velocities.ncols() {
             let column = self.difference.col_as_slice_mut(0);
             model.sample(&self.frame, column)?;
-            for (v, u) in column.iter_mut().zip(self.full.col(snapshot).iter()) {
+            for (v, u) in column.iter_mut().zip(self.full.velocities.col(snapshot).iter()) {
                 *v -= u;
             }
             self.product.factor(0, self.difference.as_mut());
@@ -40,9 +39,17 @@ impl<M: Model> Observer<M> for Comparison<'_> {
     }
 }
 
-/// The norm of each column of `x` in `product`.
-pub(super) fn norms(x: MatRef<'_, f64>, product: &dyn InnerProduct) -> Vec<f64> {
-    let mut z = x.to_owned();
-    product.factor(0, z.as_mut());
-    z.col_iter().map(|column| column.norm_l2()).collect()
+/// The full-order model on the fixed grid, its snapshots in columns, and the largest norm among them.
+pub(super) struct Snapshots {
+    pub velocities: Mat<f64>,
+    pub largest: f64,
+}
+
+impl Snapshots {
+    pub(super) fn new(velocities: Mat<f64>, product: &SparseSpd) -> Self {
+        let mut z = velocities.clone();
+        product.factor(0, z.as_mut());
+        let largest = z.col_iter().map(|column| column.norm_l2()).fold(0.0, f64::max);
+        Self { velocities, largest }
+    }
 }

@@ -1,10 +1,10 @@
-use super::advance;
-use super::compare::Comparison;
 use super::ground::Ground;
-use super::simulate::{fixed, full_order};
+use super::simulate::full_order;
+use super::{Work, advance};
 use crate::Error;
 use crate::case::{Case, Schedule};
 use crate::model::Model;
+use crate::progress::Progress;
 use crate::summary::{Reduced, Speedup, Variant};
 use lumley_rom::ModelChoice;
 
@@ -12,22 +12,33 @@ use lumley_rom::ModelChoice;
 const LOSS: f64 = 0.02;
 
 /// Coarser full-order models of the same scheme, each cheaper than all that are more accurate, as far as
-/// the most accurate of the reduced models.
+/// the most accurate of the reduced models; if none is, the run's own, which took `work`, is the last.
 ///
 /// A reduced model is fast against the full-order model that made it; whether that is worth anything
 /// depends on what a coarser full-order model would have cost.
-pub(super) fn variants(ground: &Ground, reduced: &[Reduced]) -> Result<Vec<Variant>, Error> {
+pub(super) fn variants(
+    ground: &Ground,
+    work: &Work,
+    reduced: &[Reduced],
+    progress: &mut Progress,
+) -> Result<Vec<Variant>, Error> {
     let targets = reduced.iter().filter_map(Reduced::shown_res).filter(|res| *res < 100.0);
     let strictest = targets.fold(f64::INFINITY, f64::min);
     let mut variants: Vec<Variant> = Vec::new();
     let best = |variants: &[Variant]| variants.last().map_or(f64::INFINITY, |v| v.res_percent);
-    for (cells, steps) in coarser(ground.case) {
+    let sizes = coarser(ground.case);
+    progress.begin("cost", sizes.len());
+    for (k, (cells, steps)) in sizes.into_iter().enumerate() {
+        progress.advance(k, &format!("{cells} cells, {steps} steps per snapshot"));
         if best(&variants) <= strictest || strictest.is_infinite() {
             break;
         }
         let model = full_order(&Case { cells, ..ground.case.clone() })?;
         let variant = measure(ground, model, cells, &with_steps(&ground.case.schedule, steps))?;
         variants.extend(variant.filter(|v| v.res_percent < best(&variants)));
+    }
+    if best(&variants) > strictest && strictest.is_finite() {
+        variants.push(own(ground, work));
     }
     // Cells and steps only foretell the time: by the time itself, what is beaten goes.
     let times: Vec<f64> = variants.iter().map(Variant::milliseconds).collect();
@@ -66,12 +77,26 @@ pub(super) fn speedup(
     }))
 }
 
-/// Numbers of cells and of steps per snapshot, halved again and again, cheapest first; last the run's own.
+/// The run itself, which has no error against itself.
+fn own(ground: &Ground, work: &Work) -> Variant {
+    let schedule = &ground.case.schedule;
+    Variant {
+        size: ground.case.cells,
+        step: schedule.step,
+        steps: schedule.steps(),
+        step_us: work.step_us().unwrap_or_default(),
+        res_percent: 0.0,
+    }
+}
+
+/// Numbers of cells and of steps per snapshot, halved again and again, cheapest first, without the run's
+/// own.
 fn coarser(case: &Case) -> Vec<(usize, usize)> {
     let cells = halves(case.cells).filter(|cells| *cells >= 4);
     let steps = || halves(case.schedule.steps_per_snapshot);
     let mut sizes: Vec<_> = cells.flat_map(|c| steps().map(move |s| (c, s))).collect();
     sizes.sort_by_key(|(cells, steps)| cells * steps);
+    sizes.pop();
     sizes
 }
 
@@ -90,8 +115,7 @@ fn measure<M: Model>(
     size: usize,
     schedule: &Schedule,
 ) -> Result<Option<Variant>, Error> {
-    let Some(full) = &ground.full else { return Ok(None) };
-    let mut comparison = Comparison::new(fixed(ground.case), full.as_ref(), &ground.product);
+    let Some(mut comparison) = ground.comparison() else { return Ok(None) };
     let work = match advance(&mut model, schedule, 0, &mut comparison) {
         Ok(work) => work,
         Err(Error::Step(_)) => return Ok(None),

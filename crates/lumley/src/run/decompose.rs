@@ -1,5 +1,5 @@
 use super::basis::BasisFile;
-use super::ground::{global_product, is_mapped};
+use super::ground::{grid_product, is_mapped};
 use crate::Error;
 use crate::case::{Case, PodChoice};
 use crate::directory::Workplace;
@@ -33,7 +33,7 @@ impl Decomposed {
         choice: &PodChoice,
         threads: usize,
     ) -> Result<Self, PodError> {
-        let decompose = |truncation| pod(x, product, choice, truncation, threads);
+        let decompose = |truncation| pod(x, product, None, choice, truncation, threads);
         match choice.truncation {
             Truncation::Modes(modes) => {
                 let basis = decompose(Truncation::Modes(modes.max(SWEEP)))?;
@@ -44,7 +44,7 @@ impl Decomposed {
                 let basis = decompose(Truncation::Modes(SWEEP))?;
                 match basis.cumulative_percent().iter().position(|e| *e >= 100.0 * share) {
                     Some(last) => Ok(Self { basis, chosen: last + 1 }),
-                    None => Self::exactly(x, product, choice, threads),
+                    None => Self::exactly(x, product, None, choice, threads),
                 }
             }
         }
@@ -54,10 +54,11 @@ impl Decomposed {
     pub(super) fn exactly(
         x: &dyn SnapshotSource,
         product: &dyn InnerProduct,
+        time_weights: Option<Vec<f64>>,
         choice: &PodChoice,
         threads: usize,
     ) -> Result<Self, PodError> {
-        let basis = pod(x, product, choice, choice.truncation, threads)?;
+        let basis = pod(x, product, time_weights, choice, choice.truncation, threads)?;
         let chosen = basis.size();
         Ok(Self { basis, chosen })
     }
@@ -98,6 +99,7 @@ impl Decomposed {
 fn pod(
     x: &dyn SnapshotSource,
     product: &dyn InnerProduct,
+    time_weights: Option<Vec<f64>>,
     choice: &PodChoice,
     truncation: Truncation,
     threads: usize,
@@ -105,7 +107,8 @@ fn pod(
     let algorithm = ALGORITHMS.iter().find(|algorithm| algorithm.name == choice.method);
     let algorithm = algorithm.expect("the choice names a known method");
     let par = NonZero::new(threads).filter(|n| n.get() > 1).map_or(Par::Seq, Par::Rayon);
-    let options = Options { truncation, center: choice.center, par, ..Options::default() };
+    let center = choice.center;
+    let options = Options { truncation, center, time_weights, par, ..Options::default() };
     (algorithm.run)(x, product, &options)
 }
 
@@ -123,7 +126,7 @@ pub(super) fn decompose(
     place: &Workplace,
     threads: usize,
 ) -> Result<Decompositions, Error> {
-    let product = global_product(case);
+    let product = grid_product(&case.grid, 1);
     let velocities = record.frame("fixed")?;
     let path = place.path().join("record");
     let fixed = Decomposed::with_sweep(&velocities, &product, &case.pod, threads);

@@ -1,9 +1,11 @@
 use super::basis::BasisFile;
+use super::compare::{Comparison, Snapshots};
 use super::simulate::{fixed, full_order};
 use crate::Error;
 use crate::case::Case;
 use crate::model::{Frame, Model};
 use faer::{Mat, MatRef};
+use lumley_fem::UniformGrid;
 use lumley_pod::SparseSpd;
 use lumley_rom::{Basis, ModelChoice, PistonPhysics, PistonStart, ReducedPiston};
 use std::path::Path;
@@ -19,8 +21,8 @@ pub(super) struct Ground<'a> {
     nodes: Vec<f64>,
     /// Initial global velocity on the fixed grid, and initial u on the reference nodes.
     initial: [Vec<f64>; 2],
-    /// The full-order model on the fixed grid to compare with, its snapshots in columns.
-    pub full: Option<Mat<f64>>,
+    /// The full-order model to compare with.
+    pub full: Option<Snapshots>,
     /// L2 on the fixed grid.
     pub product: SparseSpd,
     /// Number of modes whose trajectory is kept.
@@ -29,7 +31,7 @@ pub(super) struct Ground<'a> {
 
 /// Whether a model lives in the reference frame.
 pub(super) fn is_mapped(choice: &ModelChoice) -> bool {
-    choice.projection.name() == "mapped"
+    choice.projection.reference_frame()
 }
 
 impl<'a> Ground<'a> {
@@ -44,6 +46,7 @@ impl<'a> Ground<'a> {
         let mapped = case.models.iter().any(is_mapped);
         let reference = mapped.then(|| BasisFile::load(&folder.join("reference.npz")));
         let model = full_order(case)?;
+        let product = grid_product(&case.grid, 1);
         let nodes: Vec<f64> = model.nodes().collect();
         let mut initial = [vec![0.0; case.grid.len()], vec![0.0; nodes.len()]];
         model.sample(&fixed(case), &mut initial[0])?;
@@ -54,10 +57,16 @@ impl<'a> Ground<'a> {
             reference: reference.transpose()?,
             nodes,
             initial,
-            full,
-            product: global_product(case),
+            full: full.map(|full| Snapshots::new(full, &product)),
+            product,
             shown,
         })
+    }
+
+    /// The comparison with the full-order model, if there is one to compare with.
+    pub(super) fn comparison(&self) -> Option<Comparison<'_>> {
+        let full = self.full.as_ref()?;
+        Some(Comparison::new(full, fixed(self.case), &self.product))
     }
 
     /// Unknowns of the full-order velocity.
@@ -118,8 +127,10 @@ impl<'a> Ground<'a> {
     }
 }
 
-/// L2(Omega) on the fixed grid.
-pub(super) fn global_product(case: &Case) -> SparseSpd {
-    let product = SparseSpd::from_triplets(case.grid.len(), &case.grid.mass_matrix());
-    product.expect("a mass matrix is symmetric positive definite")
+/// L2 of a field of several components on a grid.
+pub fn grid_product(grid: &UniformGrid, components: usize) -> SparseSpd {
+    let (n, entries) = (grid.len(), grid.mass_matrix());
+    let block = |c: usize| entries.iter().map(move |&(i, j, m)| (c * n + i, c * n + j, m));
+    let all: Vec<_> = (0..components).flat_map(block).collect();
+    SparseSpd::from_triplets(components * n, &all).expect("a mass matrix is positive definite")
 }

@@ -1,6 +1,7 @@
 //! Running a case: one loop for every model, and the stages from the full-order model to the report.
 
 mod basis;
+mod checkpoint;
 mod compare;
 mod cost;
 mod decompose;
@@ -17,6 +18,7 @@ mod simulate;
 mod transfer;
 
 pub use basis::BasisFile;
+pub use ground::grid_product;
 pub use pipeline::{Task, run};
 pub use pod::{PodInput, decompose_snapshots};
 pub use recorder::{Gauge, Plan, Recorder};
@@ -45,25 +47,38 @@ pub struct Work {
 }
 
 impl Work {
+    /// This work and `other` together.
+    #[must_use]
+    pub fn and(self, other: &Self) -> Self {
+        Self {
+            steps: self.steps + other.steps,
+            iterations: self.iterations + other.iterations,
+            time: self.time + other.time,
+        }
+    }
+
     /// Time of one step, in µs; `None` where no step was made.
     pub fn step_us(&self) -> Option<f64> {
         (self.steps > 0).then(|| self.time.as_secs_f64() * 1e6 / self.steps as f64)
     }
 }
 
-/// Runs `model`, which stands at snapshot `first`, to the end of `schedule`; `observer` sees the snapshots
-/// after the first.
+/// Runs `model` to the end of `schedule`. `done` snapshots were observed before: with 0 the model is at its
+/// start, which `observer` sees first; else it stands at the last of them.
 ///
 /// # Errors
 /// What the model or the observer says.
 pub fn advance<M: Model>(
     model: &mut M,
     schedule: &Schedule,
-    first: usize,
+    done: usize,
     observer: &mut dyn Observer<M>,
 ) -> Result<Work, Error> {
     let mut work = Work::default();
-    for snapshot in first + 1..=schedule.intervals {
+    if done == 0 {
+        observer.observe(model, 0, &work)?;
+    }
+    for snapshot in done.max(1)..=schedule.intervals {
         let started = Instant::now();
         for _ in 0..schedule.steps_per_snapshot {
             let StepReport { iterations, .. } = model.step(schedule.step)?;
@@ -71,7 +86,7 @@ pub fn advance<M: Model>(
         }
         work.time += started.elapsed();
         work.steps += schedule.steps_per_snapshot;
-        observer.observe(model, snapshot)?;
+        observer.observe(model, snapshot, &work)?;
     }
     Ok(work)
 }

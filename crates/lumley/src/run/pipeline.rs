@@ -1,17 +1,17 @@
 use super::decompose::{Decomposed, Decompositions, decompose, whole};
 use super::ground::Ground;
 use super::reduce::reduce;
-use super::simulate::simulate;
-use super::{Work, compare, cost, probes, report, transfer};
+use super::simulate::{full_order, simulate};
+use super::{Work, checkpoint, cost, probes, report, transfer};
 use crate::Error;
 use crate::case::{Case, FlowSection};
 use crate::directory::{Existing, Workplace};
-use crate::format::csv;
-use crate::manifest::{MANIFEST, Manifest};
+use crate::manifest::{Input, MANIFEST, Manifest};
 use crate::progress::Progress;
 use crate::record::Record;
 use crate::summary::{FullOrder, Projection, SUMMARY, Snapshots, Summary};
 use lumley_fom::InitialFlow;
+use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -37,13 +37,18 @@ pub struct Task {
     pub threads: usize,
     /// Least time between checkpoints of the full-order model.
     pub checkpoint: Duration,
+    /// What to type to get this again, for the manifest.
+    pub command: String,
 }
 
 impl Task {
     /// A run into `target` with all threads of this machine and a checkpoint every five seconds.
     pub fn new(target: PathBuf, existing: Existing) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { target, existing, threads, checkpoint: Duration::from_secs(5) }
+        let command: Vec<String> = std::env::args().skip(1).collect();
+        let command = format!("lumley {}", command.join(" "));
+        let target = target.components().collect();
+        Self { target, existing, threads, checkpoint: Duration::from_secs(5), command }
     }
 }
 
@@ -53,8 +58,10 @@ impl Task {
 /// # Errors
 /// Whatever ends it; what was done so far stays in `TARGET.partial`.
 pub fn run(case: &Case, task: &Task, progress: &mut Progress) -> Result<(PathBuf, Summary), Error> {
+    // What the models do not accept is said before anything is written.
+    full_order(case)?;
     let place = Workplace::claim(&task.target, task.existing)?;
-    let mut manifest = begin(case, &place)?;
+    let mut manifest = begin(case, task, &place)?;
     let work = simulate(case, &place, task.checkpoint, progress)?;
     let (steps, us) = (work.steps, work.step_us().unwrap_or_default());
     manifest.stage("full-order model", progress.end(&format!("{steps} steps of {us:.1} µs")));
@@ -74,27 +81,36 @@ pub fn run(case: &Case, task: &Task, progress: &mut Progress) -> Result<(PathBuf
 }
 
 /// Writes what the run is, or checks that it goes on with the same.
-pub(super) fn begin(case: &Case, place: &Workplace) -> Result<Manifest, Error> {
-    let mut case = case.clone();
-    if let (FlowSection::Table(_), InitialFlow::Table(rows)) =
-        (&case.file.piston.initial_flow, &case.piston.initial_flow)
-    {
-        let (x, u): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
-        csv::write_columns(&place.path().join(INITIAL_FLOW), &[("x", &x), ("u", &u)])?;
-        case.file.piston.initial_flow = FlowSection::Table(INITIAL_FLOW.into());
-    }
-    let resolved = case.to_toml();
-    let path = place.path().join(CASE);
-    if place.resumed() && std::fs::read_to_string(&path).is_ok_and(|begun| begun != resolved) {
+pub(super) fn begin(case: &Case, task: &Task, place: &Workplace) -> Result<Manifest, Error> {
+    let (resolved, table) = resolved(case);
+    let same = |name: &str, text: &str| {
+        fs::read_to_string(place.path().join(name)).is_ok_and(|begun| begun == text)
+    };
+    let table_is_same = table.as_ref().is_none_or(|table| same(INITIAL_FLOW, table));
+    if place.resumed() && !(same(CASE, &resolved) && table_is_same) {
         return Err(Error::OtherCase { path: place.path().to_owned() });
     }
+    let mut manifest = Manifest::new(&case.name, &task.command);
+    manifest.inputs.push(Input::new(CASE, resolved.as_bytes()));
+    if let Some(table) = &table {
+        place.write(INITIAL_FLOW, table.as_bytes())?;
+        manifest.inputs.push(Input::new(INITIAL_FLOW, table.as_bytes()));
+    }
     place.write(CASE, resolved.as_bytes())?;
-    let manifest = Manifest::new(&case.name, resolved.as_bytes());
     place.write(MANIFEST, manifest.to_json().as_bytes())?;
     Ok(manifest)
 }
 
-/// Writes summary, manifest and report: the run is complete but for its name.
+/// The case as the run directory keeps it, and the table of its initial flow, if it has one.
+fn resolved(case: &Case) -> (String, Option<String>) {
+    let InitialFlow::Table(rows) = &case.piston.initial_flow else { return (case.to_toml(), None) };
+    let mut case = case.clone();
+    case.file.piston.initial_flow = FlowSection::Table(INITIAL_FLOW.into());
+    let rows = rows.iter().map(|(x, u)| format!("{x:?},{u:?}\n"));
+    (case.to_toml(), Some(std::iter::once("x,u\n".to_owned()).chain(rows).collect()))
+}
+
+/// Writes summary, report and, last, that the run is complete but for its name.
 pub(super) fn finish(
     place: &Workplace,
     mut manifest: Manifest,
@@ -102,11 +118,12 @@ pub(super) fn finish(
     progress: &mut Progress,
 ) -> Result<(), Error> {
     place.write(SUMMARY, summary.to_json().as_bytes())?;
-    progress.begin("report", 1);
-    manifest.complete = true;
     place.write(MANIFEST, manifest.to_json().as_bytes())?;
-    report::write(place.path(), place.target())?;
+    progress.begin("report", 1);
+    report::write(place.path())?;
     manifest.stage("report", progress.end("report.html"));
+    checkpoint::remove(place)?;
+    manifest.complete = true;
     place.write(MANIFEST, manifest.to_json().as_bytes())?;
     Ok(())
 }
@@ -129,9 +146,8 @@ fn summarise(ground: &Ground, record: &Record, found: &Decompositions) -> Result
 
 pub(super) fn snapshots(ground: &Ground) -> Snapshots {
     let Some(full) = &ground.full else { return Snapshots::default() };
-    let norms = compare::norms(full.as_ref(), &ground.product);
-    let max_norm = norms.into_iter().reduce(f64::max);
-    Snapshots { snapshots: full.ncols(), unknowns: full.nrows(), max_norm }
+    let (unknowns, snapshots) = full.velocities.shape();
+    Snapshots { snapshots, unknowns, max_norm: Some(full.largest) }
 }
 
 /// Runs the reduced models into the summary.
@@ -163,8 +179,7 @@ pub(super) fn full_order_cost(
     manifest: &mut Manifest,
     progress: &mut Progress,
 ) -> Result<(), Error> {
-    progress.begin("cost", 1);
-    let variants = cost::variants(ground, &summary.rom)?;
+    let variants = cost::variants(ground, work, &summary.rom, progress)?;
     for (choice, model) in ground.case.models.iter().zip(&mut summary.rom) {
         model.speedup = cost::speedup(ground, choice, model, &variants)?;
     }

@@ -1,19 +1,19 @@
 use super::basis::BasisFile;
 use super::decompose::{Decomposed, SWEEP};
+use super::ground::grid_product;
 use super::pipeline::Task;
-use super::report::{columns, save};
+use super::report::{columns, provenance, save};
 use crate::Error;
 use crate::case::PodChoice;
-use crate::directory::Workplace;
+use crate::directory::{DirectoryError, Workplace};
 use crate::format::npy::{NpySnapshots, SnapshotLayout, read_vector};
-use crate::manifest::{MANIFEST, Manifest};
+use crate::manifest::{Input, MANIFEST, Manifest};
 use crate::progress::Progress;
 use crate::record::{Record, Support};
-use crate::report::{FieldGrid, PodReport, Provenance};
+use crate::report::{FieldGrid, PodReport};
 use crate::summary::{Projection, SUMMARY, Snapshots, Summary};
-use lumley_pod::{
-    Diagonal, Identity, InnerProduct, SnapshotSource, SparseSpd, projection_residuals,
-};
+use lumley_pod::time_weights::trapezoid;
+use lumley_pod::{Diagonal, Identity, InnerProduct, SnapshotSource, projection_residuals};
 use std::path::{Path, PathBuf};
 
 /// Snapshots that are decomposed by themselves, and how.
@@ -53,6 +53,8 @@ pub struct PodInput {
 /// Snapshots, their inner product and the words for it.
 struct Opened {
     snapshots: Box<dyn SnapshotSource>,
+    /// Weights of the snapshots, where their times are given and unequal.
+    time_weights: Option<Vec<f64>>,
     product: Box<dyn InnerProduct>,
     inner_product: String,
     grid: Option<FieldGrid>,
@@ -69,25 +71,44 @@ pub fn decompose_snapshots(
 ) -> Result<(PathBuf, Summary), Error> {
     let opened = input.open()?;
     let place = Workplace::claim(&task.target, task.existing)?;
-    let name = input.path.display().to_string();
-    let mut manifest = Manifest::new(&name, name.as_bytes());
+    // Nothing of this is worth going on with: what fails is not left behind.
+    match decompose_into(input, &opened, task, &place, progress) {
+        Ok(summary) => Ok((place.finish()?, summary)),
+        Err(error) => {
+            place.abandon()?;
+            Err(error)
+        }
+    }
+}
+
+fn decompose_into(
+    input: &PodInput,
+    opened: &Opened,
+    task: &Task,
+    place: &Workplace,
+    progress: &mut Progress,
+) -> Result<Summary, Error> {
+    let mut manifest = Manifest::new(&input.path.display().to_string(), &task.command);
+    manifest.inputs = input.inputs()?;
     place.write(MANIFEST, manifest.to_json().as_bytes())?;
     progress.begin("pod", 1);
     let (x, w) = (opened.snapshots.as_ref(), opened.product.as_ref());
-    let found = Decomposed::exactly(x, w, &input.choice, task.threads);
+    let weights = opened.time_weights.clone();
+    let found = Decomposed::exactly(x, w, weights, &input.choice, task.threads);
     let found = found.map_err(Error::pod(&input.path))?;
     let warnings: Vec<String> = found.warnings(&input.choice);
     progress.warn(&warnings);
     BasisFile::save(&place.path().join("pod.npz"), &found.basis)?;
     manifest.stage("pod", progress.end(&found.headline()));
 
-    let summary = summarise(input, &opened, &found, warnings)?;
+    let mut summary = summarise(input, opened, &found, warnings)?;
+    summary.directory = task.target.display().to_string();
     place.write(SUMMARY, summary.to_json().as_bytes())?;
+    let report = input.report(opened, &found, &summary, &manifest);
+    save(place.path(), &report.render())?;
     manifest.complete = true;
     place.write(MANIFEST, manifest.to_json().as_bytes())?;
-    let report = input.report(&opened, &found, &summary, &manifest);
-    save(place.path(), &report.render())?;
-    Ok((place.finish()?, summary))
+    Ok(summary)
 }
 
 impl PodInput {
@@ -97,12 +118,30 @@ impl PodInput {
         if record.join("zarr.json").is_file() { self.open_record(record) } else { self.open_npy() }
     }
 
+    /// The files that were read, by name, length and, where that is quick, checksum.
+    fn inputs(&self) -> Result<Vec<Input>, Error> {
+        let files = [Some(&self.path), self.weights.as_ref(), self.times.as_ref()];
+        let files = files.into_iter().flatten().filter(|path| path.is_file());
+        let input = |path: &PathBuf| {
+            let failed = |source| DirectoryError::Io { action: "read", path: path.clone(), source };
+            Ok(Input::of_file(path).map_err(failed)?)
+        };
+        files.map(input).collect()
+    }
+
     fn open_npy(&self) -> Result<Opened, Error> {
         let mut snapshots = NpySnapshots::open(&self.path, self.layout)?;
         if let Some(times) = &self.times {
             snapshots = snapshots.with_times(read_vector(times)?)?;
         }
         let unknowns = snapshots.dim();
+        if self.components == 0 || unknowns % self.components != 0 {
+            return Err(Error::Argument {
+                argument: "--components",
+                value: self.components.to_string(),
+                expected: format!("a divisor of the {unknowns} numbers of a snapshot"),
+            });
+        }
         if let Some(grid) = self.grid.filter(|grid| numbers(grid) != Some(unknowns)) {
             let [nx, ny, nz] = grid.nodes;
             return Err(Error::Argument {
@@ -111,40 +150,62 @@ impl PodInput {
                 expected: format!("as many numbers as a snapshot has: {unknowns}"),
             });
         }
-        let (product, inner_product) = self.product(unknowns)?;
-        Ok(Opened { snapshots: Box::new(snapshots), product, inner_product, grid: self.grid })
+        let (product, inner_product) = self.product(unknowns, self.components)?;
+        let time_weights = match &self.times {
+            Some(_) => unequal(snapshots.times()),
+            None => None,
+        };
+        let snapshots = Box::new(snapshots);
+        Ok(Opened { snapshots, time_weights, product, inner_product, grid: self.grid })
     }
 
     fn open_record(&self, path: &Path) -> Result<Opened, Error> {
+        let given = [("--times", self.times.is_some()), ("--grid", self.grid.is_some())];
+        let others = [
+            ("--snapshots columns", self.layout == SnapshotLayout::Columns),
+            ("--components", self.components != 1),
+        ];
+        if let Some((argument, _)) = given.into_iter().chain(others).find(|(_, given)| *given) {
+            return Err(Error::Argument {
+                argument,
+                value: format!("with the record {}", path.display()),
+                expected: "an NPY file; a record knows its times, its grid and its components"
+                    .into(),
+            });
+        }
         let record = Record::open(path)?;
         let frame = &record.description().frames[0];
         let snapshots = record.frame(&frame.name)?;
         let unknowns = snapshots.dim();
-        let (mut product, mut inner_product) = self.product(unknowns)?;
+        let components = frame.components.len();
+        let (mut product, mut inner_product) = self.product(unknowns, components)?;
         let mut field_grid = None;
         if let Support::Grid(grid) = &frame.support {
-            let components = frame.components.len();
             let [nx, ny] = grid.nodes();
             field_grid = Some(FieldGrid { nodes: [nx, ny, 1], components });
             if self.weights.is_none() {
-                product = Box::new(mass(grid, components));
+                product = Box::new(grid_product(grid, components));
                 inner_product = "L2, the mass matrix of the grid".into();
             }
         }
-        Ok(Opened { snapshots: Box::new(snapshots), product, inner_product, grid: field_grid })
+        let time_weights = unequal(snapshots.times());
+        let snapshots = Box::new(snapshots);
+        Ok(Opened { snapshots, time_weights, product, inner_product, grid: field_grid })
     }
 
     /// The weights' inner product, each node's repeated for its components; without weights, identity.
-    fn product(&self, unknowns: usize) -> Result<(Box<dyn InnerProduct>, String), Error> {
+    fn product(
+        &self,
+        unknowns: usize,
+        components: usize,
+    ) -> Result<(Box<dyn InnerProduct>, String), Error> {
         let Some(path) = &self.weights else {
             return Ok((Box::new(Identity::new(unknowns)), "identity".into()));
         };
         let weights = read_vector(path)?;
         let repeated = match weights.len() {
             n if n == unknowns => weights,
-            n if n.checked_mul(self.components) == Some(unknowns) => {
-                weights.repeat(self.components)
-            }
+            n if n.checked_mul(components) == Some(unknowns) => weights.repeat(components),
             n => {
                 return Err(Error::Argument {
                     argument: "--weights",
@@ -182,28 +243,21 @@ impl PodInput {
             times: basis.times.clone(),
             grid: opened.grid,
             warnings: summary.warnings.clone(),
-            provenance: Provenance {
-                version: manifest.version.clone(),
-                command: format!("lumley pod {}", self.path.display()),
-                machine: manifest.machine.to_string(),
-                stages: manifest.stages.iter().map(|s| (s.name.clone(), s.seconds)).collect(),
-                case_file: String::new(),
-            },
+            provenance: provenance(manifest, String::new()),
         }
     }
+}
+
+/// Weights of the trapezoid rule where the steps between `times` differ; equal steps weigh all alike.
+fn unequal(times: &[f64]) -> Option<Vec<f64>> {
+    let mean = (times.last()? - times.first()?) / (times.len() - 1).max(1) as f64;
+    let differ = times.windows(2).any(|pair| (pair[1] - pair[0] - mean).abs() > 1e-6 * mean);
+    if differ { trapezoid(times).ok() } else { None }
 }
 
 /// Numbers in a snapshot on `grid`, if they can be counted.
 fn numbers(grid: &FieldGrid) -> Option<usize> {
     grid.nodes.iter().try_fold(grid.components, |product, n| product.checked_mul(*n))
-}
-
-/// L2 of a field of several components on a grid.
-fn mass(grid: &lumley_fem::UniformGrid, components: usize) -> SparseSpd {
-    let (n, entries) = (grid.len(), grid.mass_matrix());
-    let block = |c: usize| entries.iter().map(move |&(i, j, m)| (c * n + i, c * n + j, m));
-    let all: Vec<_> = (0..components).flat_map(block).collect();
-    SparseSpd::from_triplets(components * n, &all).expect("a mass matrix is positive definite")
 }
 
 fn summarise(

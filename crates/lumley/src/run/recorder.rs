@@ -1,3 +1,4 @@
+use super::Work;
 use crate::Error;
 use crate::case::Case;
 use crate::model::{Frame, Model, Observer};
@@ -42,12 +43,15 @@ impl<M: Model> Gauge<M> {
 /// The observer that writes snapshots to a record: fields in frames, gauges as series.
 pub struct Recorder<M> {
     writer: RecordWriter,
+    interval: f64,
     frames: Vec<(Frame, Vec<f64>)>,
     gauges: Vec<Gauge<M>>,
 }
 
 /// The frames of a record, their supports, and the gauges beside them.
 pub struct Plan<M> {
+    /// Time between snapshots, in s.
+    pub interval: f64,
     /// The frames and the nodes they have.
     pub frames: Vec<(Frame, Support)>,
     /// The gauges.
@@ -80,15 +84,13 @@ impl<M: Model> Plan<M> {
 }
 
 impl<M: Model> Recorder<M> {
-    /// A new record in `folder`, with the state of `model` as its first snapshot.
+    /// A new, empty record in `folder`.
     ///
     /// # Errors
-    /// The failure of the disk or of the sampling.
-    pub fn create(folder: &Path, case: &Case, plan: Plan<M>, model: &M) -> Result<Self, Error> {
+    /// The failure of the disk.
+    pub fn create(folder: &Path, case: &Case, plan: Plan<M>) -> Result<Self, Error> {
         let writer = RecordWriter::create(folder, &plan.description(case))?;
-        let mut recorder = Self::new(writer, plan);
-        recorder.observe(model, 0)?;
-        Ok(recorder)
+        Ok(Self::new(writer, plan))
     }
 
     /// The record in `folder`, cut to its first `snapshots`, to go on with.
@@ -103,7 +105,13 @@ impl<M: Model> Recorder<M> {
 
     fn new(writer: RecordWriter, plan: Plan<M>) -> Self {
         let buffer = |(frame, support): (Frame, Support)| (frame, vec![0.0; support.len()]);
-        Self { writer, frames: plan.frames.into_iter().map(buffer).collect(), gauges: plan.gauges }
+        let interval = plan.interval;
+        Self {
+            writer,
+            interval,
+            frames: plan.frames.into_iter().map(buffer).collect(),
+            gauges: plan.gauges,
+        }
     }
 
     /// Commits what was recorded so far.
@@ -124,7 +132,9 @@ impl<M: Model> Recorder<M> {
 }
 
 impl<M: Model> Observer<M> for Recorder<M> {
-    fn observe(&mut self, model: &M, _: usize) -> Result<(), Error> {
+    fn observe(&mut self, model: &M, snapshot: usize, _: &Work) -> Result<(), Error> {
+        // Not the model's own time, which is a sum of steps and of their round-off.
+        let time = snapshot as f64 * self.interval;
         for (frame, values) in &mut self.frames {
             model.sample(frame, values)?;
         }
@@ -132,7 +142,7 @@ impl<M: Model> Observer<M> for Recorder<M> {
         let series: Vec<Vec<f64>> = series.collect::<Result<_, _>>()?;
         let fields: Vec<&[f64]> = self.frames.iter().map(|(_, values)| values.as_slice()).collect();
         let series: Vec<&[f64]> = series.iter().map(Vec::as_slice).collect();
-        self.writer.append(&Snapshot { time: model.time(), fields: &fields, series: &series })?;
+        self.writer.append(&Snapshot { time, fields: &fields, series: &series })?;
         Ok(())
     }
 }

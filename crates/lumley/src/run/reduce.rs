@@ -1,23 +1,26 @@
-use super::advance;
 use super::compare::Comparison;
 use super::decompose::SWEEP;
-use super::ground::Ground;
+use super::ground::{Ground, is_mapped};
 use super::parallel::in_parallel;
 use super::recorder::{Gauge, Plan, Recorder};
 use super::simulate::fixed;
+use super::{Work, advance};
 use crate::Error;
+use crate::case::Schedule;
 use crate::directory::Workplace;
 use crate::model::{Observer, StepError};
 use crate::progress::Progress;
 use crate::record::{Quantity, Support};
 use crate::summary::{Failure, Reduced};
-use lumley_rom::{ClosureKind, Integrator, ModelChoice, ReducedError, ReducedPiston};
+use lumley_rom::{Integrator, ModelChoice, ProjectionKind, ReducedError, ReducedPiston};
 use std::path::Path;
+
+/// Steps over which the time of one is measured.
+const TIMED_STEPS: usize = 2000;
 
 /// One reduced model with one number of modes, after its run.
 struct Attempt {
     res_percent: Option<f64>,
-    step_us: Option<f64>,
     failure: Option<Failure>,
     stable_step: Option<f64>,
 }
@@ -42,16 +45,31 @@ pub(super) fn reduce(
         let keep = (modes == ground.shown_of(choice)).then_some(record);
         ground.attempt(choice, modes, keep.as_deref())
     })?;
+    // Models that run side by side slow each other down: steps are timed one model at a time.
+    let timed = jobs.iter().zip(&results).map(|(&(model, modes), attempt)| match attempt.failure {
+        None => ground.step_us(&ground.case.models[model], modes),
+        Some(_) => Ok(None),
+    });
+    let timed: Vec<Option<f64>> = timed.collect::<Result<_, _>>()?;
     let mut reduced: Vec<Reduced> = Vec::new();
     for (k, (choice, label)) in ground.case.models.iter().zip(&labels).enumerate() {
         let projection = choice.projection.name().to_owned();
         let shown = Some(ground.shown_of(choice));
-        let mut entry = Reduced { projection, label: label.clone(), shown, ..Reduced::default() };
-        for ((_, modes), attempt) in jobs.iter().zip(&results).filter(|((model, _), _)| *model == k)
-        {
-            entry.modes.push(*modes);
+        let mut entry = Reduced {
+            projection,
+            beta: beta(choice),
+            sigma: sigma(choice),
+            closure: choice.closure.name().to_owned(),
+            reference_frame: is_mapped(choice),
+            label: label.clone(),
+            shown,
+            ..Reduced::default()
+        };
+        let of_model = jobs.iter().zip(&results).zip(&timed).filter(|((job, _), _)| job.0 == k);
+        for ((&(_, modes), attempt), step_us) in of_model {
+            entry.modes.push(modes);
             entry.res_percent.push(attempt.res_percent);
-            entry.step_us.push(attempt.step_us);
+            entry.step_us.push(*step_us);
             entry.failure.push(attempt.failure.clone());
             entry.stable_step.push(attempt.stable_step);
         }
@@ -62,10 +80,12 @@ pub(super) fn reduce(
 
 impl Ground<'_> {
     /// What is recorded of a reduced model.
-    fn plan(&self, modes: usize) -> Plan<ReducedPiston> {
+    fn plan(&self, choice: &ModelChoice, modes: usize) -> Plan<ReducedPiston> {
         let [position, velocity] = Gauge::of_body();
-        let names = (1..=modes).map(|n| Quantity::new(format!("a{n}"), "1")).collect();
+        let unit = if is_mapped(choice) { "m/s" } else { "m3/2/s" };
+        let names = (1..=modes).map(|n| Quantity::new(format!("a{n}"), unit)).collect();
         Plan {
+            interval: self.case.rom_schedule.interval,
             frames: vec![(fixed(self.case), Support::Grid(self.case.grid.clone()))],
             gauges: vec![
                 position,
@@ -89,11 +109,14 @@ impl Ground<'_> {
         modes: usize,
         record: Option<&Path>,
     ) -> Result<Attempt, Error> {
-        let mut attempt =
-            Attempt { res_percent: None, step_us: None, failure: None, stable_step: None };
+        let mut attempt = Attempt { res_percent: None, failure: None, stable_step: None };
         match self.run(choice, modes, record, &mut attempt) {
             Err(Error::Step(StepError::Reduced(error @ ReducedError::Diverged { time, .. }))) => {
                 attempt.failure = Some(Failure { time, message: error.to_string() });
+                Ok(attempt)
+            }
+            Err(Error::Reduced(error @ ReducedError::TooLarge { .. })) => {
+                attempt.failure = Some(Failure { time: 0.0, message: error.to_string() });
                 Ok(attempt)
             }
             Err(other) => Err(other),
@@ -113,23 +136,48 @@ impl Ground<'_> {
             attempt.stable_step = Some(model.stable_step());
         }
         let recorder = match record {
-            Some(folder) => Some(Recorder::create(folder, self.case, self.plan(modes), &model)?),
+            Some(folder) => Some(Recorder::create(folder, self.case, self.plan(choice, modes))?),
             None => None,
         };
-        let comparison = self
-            .full
-            .as_ref()
-            .map(|full| Comparison::new(fixed(self.case), full.as_ref(), &self.product));
-        let mut observer = Both { recorder, comparison };
-        if let Some(comparison) = &mut observer.comparison {
-            comparison.observe(&model, 0)?;
-        }
-        let work = advance(&mut model, &self.case.rom_schedule, 0, &mut observer);
+        let mut observer = Both { recorder, comparison: self.comparison() };
+        let finished = advance(&mut model, &self.case.rom_schedule, 0, &mut observer);
         if let Some(recorder) = observer.recorder {
             recorder.finish()?;
         }
-        attempt.step_us = work?.step_us();
+        finished?;
         attempt.res_percent = observer.comparison.map(|c| c.percent());
+        Ok(())
+    }
+
+    /// Time of a step of a model that is known to run, in µs, over the first steps.
+    fn step_us(&self, choice: &ModelChoice, modes: usize) -> Result<Option<f64>, Error> {
+        let schedule = &self.case.rom_schedule;
+        let intervals = TIMED_STEPS.div_ceil(schedule.steps_per_snapshot).min(schedule.intervals);
+        let mut model = self.build(choice, modes)?;
+        let work = advance(&mut model, &Schedule { intervals, ..*schedule }, 0, &mut Nobody)?;
+        Ok(work.step_us())
+    }
+}
+
+fn beta(choice: &ModelChoice) -> Option<f64> {
+    match choice.projection {
+        ProjectionKind::Multiplier(multiplier) => Some(multiplier.beta),
+        _ => None,
+    }
+}
+
+fn sigma(choice: &ModelChoice) -> Option<f64> {
+    match choice.projection {
+        ProjectionKind::Penalty(penalty) => Some(penalty.sigma),
+        _ => None,
+    }
+}
+
+/// Watches nothing.
+struct Nobody;
+
+impl Observer<ReducedPiston> for Nobody {
+    fn observe(&mut self, _: &ReducedPiston, _: usize, _: &Work) -> Result<(), Error> {
         Ok(())
     }
 }
@@ -140,11 +188,16 @@ struct Both<'a> {
 }
 
 impl Observer<ReducedPiston> for Both<'_> {
-    fn observe(&mut self, model: &ReducedPiston, snapshot: usize) -> Result<(), Error> {
+    fn observe(
+        &mut self,
+        model: &ReducedPiston,
+        snapshot: usize,
+        work: &Work,
+    ) -> Result<(), Error> {
         if let Some(recorder) = &mut self.recorder {
-            recorder.observe(model, snapshot)?;
+            recorder.observe(model, snapshot, work)?;
         }
-        self.comparison.as_mut().map_or(Ok(()), |c| c.observe(model, snapshot))
+        self.comparison.as_mut().map_or(Ok(()), |c| c.observe(model, snapshot, work))
     }
 }
 
@@ -163,9 +216,9 @@ fn labels(models: &[ModelChoice]) -> Vec<String> {
     let mut labels: Vec<String> = Vec::new();
     for choice in models {
         let projection = choice.projection.name();
-        let plain = match choice.closure {
-            ClosureKind::None {} => projection.to_owned(),
-            ClosureKind::EddyViscosity(_) => format!("{projection}-eddy-viscosity"),
+        let plain = match choice.closure.name() {
+            "none" => projection.to_owned(),
+            closure => format!("{projection}-{closure}"),
         };
         let numbered = (2..).map(|k| format!("{plain}-{k}"));
         let mut candidates = std::iter::once(plain.clone()).chain(numbered);

@@ -3,7 +3,7 @@ use super::decompose::whole;
 use super::pipeline::CASE;
 use crate::Error;
 use crate::case::{Case, FlowSection};
-use crate::directory;
+use crate::directory::{self, DirectoryError};
 use crate::format::npz::NpzReader;
 use crate::manifest::{MANIFEST, Manifest};
 use crate::record::Record;
@@ -17,12 +17,17 @@ use serde::de::DeserializeOwned;
 use std::fs;
 use std::path::Path;
 
-/// Writes `report.html` and `figures/` of the run in `folder`, which people know as `name`.
+/// Whether `folder` is the run of a case, and not the POD of snapshots alone.
+pub(super) fn check_is_of_a_case(folder: &Path) -> Result<(), Error> {
+    if folder.join(CASE).exists() { Ok(()) } else { Err(Error::NoCase { path: folder.to_owned() }) }
+}
+
+/// Writes `report.html` and `figures/` of the run in `folder`.
 ///
 /// # Errors
 /// A file of the run that is missing or damaged, or the failure of the disk.
-pub fn write(folder: &Path, name: &Path) -> Result<(), Error> {
-    save(folder, &piston(folder, name)?.render())
+pub fn write(folder: &Path) -> Result<(), Error> {
+    save(folder, &piston(folder)?.render())
 }
 
 /// Writes a page and its figures into `folder`.
@@ -35,12 +40,13 @@ pub(super) fn save(folder: &Path, report: &Report) -> Result<(), Error> {
 }
 
 /// Reads everything that the report shows from the run in `folder`.
-fn piston(folder: &Path, name: &Path) -> Result<PistonReport, Error> {
+fn piston(folder: &Path) -> Result<PistonReport, Error> {
+    check_is_of_a_case(folder)?;
     let (manifest, summary) = read_summary(folder)?;
     let case = Case::load(&folder.join(CASE), false, &[])?;
     let record = folder.join("record");
     let record = if record.exists() { Some(Record::open(record)?) } else { None };
-    let own_basis = !summary.projection.res_percent.is_empty();
+    let own_basis = summary.basis.is_none();
     let reduced = summary.rom.iter().map(|model| reduced(folder, &case, model));
     let nodes = super::full_order(&case)?.nodes().collect();
     let grid = (0..case.grid.len()).map(|k| case.grid.point(k)[0]).collect();
@@ -57,7 +63,7 @@ fn piston(folder: &Path, name: &Path) -> Result<PistonReport, Error> {
         reduced: reduced.collect::<Result<_, _>>()?,
         variants: variants(&summary),
         transfer: transfer(&case, &summary),
-        provenance: provenance(&case, &manifest, name),
+        provenance: provenance(&manifest, case.to_toml()),
     })
 }
 
@@ -86,9 +92,10 @@ pub fn read_summary(folder: &Path) -> Result<(Manifest, Summary), Error> {
 }
 
 fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
-    let damaged = |message: String| Error::Damaged { path: path.to_owned(), message };
-    let bytes = fs::read(path).map_err(|e| damaged(e.to_string()))?;
-    serde_json::from_slice(&bytes).map_err(|e| damaged(e.to_string()))
+    let unreadable = |source| DirectoryError::Io { action: "read", path: path.to_owned(), source };
+    let bytes = fs::read(path).map_err(unreadable)?;
+    serde_json::from_slice(&bytes)
+        .map_err(|e| Error::Damaged { path: path.to_owned(), message: e.to_string() })
 }
 
 fn parameters(case: &Case) -> Parameters {
@@ -161,7 +168,7 @@ fn reduced(folder: &Path, case: &Case, model: &Reduced) -> Result<RomResults, Er
             reduced: variant(&speedup.reduced),
             full: variant(&speedup.full),
         }),
-        frame: if model.projection == "mapped" { Frame::Reference } else { Frame::FixedGrid },
+        frame: if model.reference_frame { Frame::Reference } else { Frame::FixedGrid },
         coefficients: (0..shown).map(|n| coefficients.entry(n).collect()).collect(),
     })
 }
@@ -189,13 +196,13 @@ fn transfer(case: &Case, summary: &Summary) -> Vec<TransferError> {
     ]
 }
 
-fn provenance(case: &Case, manifest: &Manifest, name: &Path) -> Provenance {
+pub(super) fn provenance(manifest: &Manifest, case_file: String) -> Provenance {
     Provenance {
         version: manifest.version.clone(),
-        command: format!("lumley run {}", name.join(CASE).display()),
+        command: manifest.command.clone(),
         machine: manifest.machine.to_string(),
         stages: manifest.stages.iter().map(|s| (s.name.clone(), s.seconds)).collect(),
-        case_file: case.to_toml(),
+        case_file,
     }
 }
 

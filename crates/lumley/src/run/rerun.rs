@@ -2,10 +2,10 @@ use super::basis::BasisFile;
 use super::decompose::whole;
 use super::ground::{Ground, is_mapped};
 use super::pipeline::{CASE, Task, begin, finish, full_order_cost, reduced_models, snapshots};
-use super::simulate::simulate;
+use super::simulate::{full_order, simulate};
 use super::{probes, report};
 use crate::Error;
-use crate::case::Case;
+use crate::case::{Case, CaseFile, PodSection};
 use crate::directory::{DirectoryError, Workplace};
 use crate::progress::Progress;
 use crate::record::Record;
@@ -28,12 +28,18 @@ pub fn rerun(
     task: &Task,
     progress: &mut Progress,
 ) -> Result<(PathBuf, Summary), Error> {
+    if task.target.canonicalize().is_ok_and(|to| source.canonicalize().is_ok_and(|s| s == to)) {
+        return Err(Error::OntoItself { path: source.to_owned() });
+    }
+    report::check_is_of_a_case(source)?;
     let path = source.join(CASE);
-    let (before, case) = (Case::load(&path, false, &[])?, Case::load(&path, false, settings)?);
+    let (before, mut case) = (Case::load(&path, false, &[])?, Case::load(&path, false, settings)?);
     check_basis_fits(source, &before, &case)?;
-    let (_, old) = report::read_summary(source)?;
+    let (made_by, old) = report::read_summary(source)?;
+    case.name = made_by.case;
+    full_order(&case)?;
     let place = Workplace::claim(&task.target, task.existing)?;
-    let mut manifest = begin(&case, &place)?;
+    let mut manifest = begin(&case, task, &place)?;
     copy_bases(source, &place)?;
 
     let mut work = None;
@@ -42,10 +48,12 @@ pub fn rerun(
         work = Some(simulate(&case, &place, task.checkpoint, progress)?);
         manifest.stage("full-order model", progress.end("beside the reduced models"));
         record = Some(Record::open(place.path().join("record"))?);
-    } else if before.piston == case.piston && before.schedule.interval == case.schedule.interval {
+    } else if is_same_flow(&before, &case) && source.join("record").exists() {
         record = Some(Record::open(source.join("record"))?);
     }
     let full = record.as_ref().map(|record| whole(&record.frame("fixed")?)).transpose()?;
+    let snapshots_to_compare = case.schedule.snapshots();
+    let full = full.map(|x| x.subcols(0, x.ncols().min(snapshots_to_compare)).to_owned());
     let shown = case.file.pod.modes.unwrap_or(old.pod.modes);
     let ground = Ground::new(&case, place.path(), full, shown)?;
     let mut summary = Summary {
@@ -53,7 +61,13 @@ pub fn rerun(
         record: snapshots(&ground),
         pod: old.pod,
         pod_reference: old.pod_reference,
-        probes: record.as_ref().map_or_else(|| Ok(Vec::new()), probes::probes)?,
+        probes: if compare {
+            record.as_ref().map_or(Ok(Vec::new()), probes::probes)?
+        } else {
+            Vec::new()
+        },
+        basis: Some(source.display().to_string()),
+        warnings: window(&case, &ground).into_iter().collect(),
         ..Summary::default()
     };
     reduced_models(&ground, &place, task, &mut summary, &mut manifest, progress)?;
@@ -64,17 +78,38 @@ pub fn rerun(
     Ok((place.finish()?, summary))
 }
 
-/// A basis belongs to its mesh, its grid and its domain.
+/// Whether both cases have the same solution at the same times, as far as both go.
+fn is_same_flow(before: &Case, case: &Case) -> bool {
+    before.piston == case.piston && before.schedule.interval == case.schedule.interval
+}
+
+/// Over which time the models are compared, where that is not the whole of it.
+fn window(case: &Case, ground: &Ground) -> Option<String> {
+    let compared = ground.full.as_ref()?.velocities.ncols();
+    let end = case.schedule.time(compared - 1);
+    let all = compared == case.schedule.snapshots();
+    (!all).then(|| format!("Res is that of the first {end} s, for which the run has a record"))
+}
+
+/// A basis belongs to its mesh, its grid, its domain and its decomposition.
 fn check_basis_fits(source: &Path, before: &Case, case: &Case) -> Result<(), Error> {
-    let grid = |case: &Case| (case.cells, case.degree, case.grid.clone());
     if case.models.is_empty() {
         return Err(Error::NothingToDo { what: "the case of this run has no rom.models" });
     }
-    let missing = case.models.iter().any(is_mapped) && !before.models.iter().any(is_mapped);
-    if grid(before) == grid(case) && !missing {
-        return Ok(());
+    let (old, new) = (&before.file, &case.file);
+    let pod = |file: &CaseFile| PodSection { modes: None, ..file.pod.clone() };
+    let changed = [
+        ("mesh", old.mesh != new.mesh),
+        ("grid", old.grid != new.grid),
+        ("transfer", old.transfer != new.transfer),
+        ("piston.domain_length", old.piston.domain_length != new.piston.domain_length),
+        ("pod", pod(old) != pod(new)),
+        ("rom.models", case.models.iter().any(is_mapped) && !before.models.iter().any(is_mapped)),
+    ];
+    match changed.into_iter().find(|(_, changed)| *changed) {
+        Some((key, _)) => Err(Error::OtherBasis { path: source.to_owned(), key }),
+        None => Ok(()),
     }
-    Err(Error::OtherBasis { path: source.to_owned() })
 }
 
 /// The new run stands on its own: it has its bases with it.

@@ -1,19 +1,15 @@
+use super::checkpoint::{self, Progressed};
 use super::recorder::{Gauge, Plan, Recorder};
 use super::{Work, advance, transfer};
 use crate::Error;
 use crate::case::Case;
-use crate::directory::{DirectoryError, Workplace};
+use crate::directory::Workplace;
 use crate::model::{Frame, Model, Observer};
 use crate::progress::Progress;
 use crate::record::{Quantity, Support};
 use lumley_fom::Piston;
-use std::fs;
-use std::io;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Where a checkpoint stands in a run directory; gone when the run is complete.
-const CHECKPOINT: &str = "checkpoint";
 /// Where the velocity is probed, in m.
 const MIDDLE: f64 = 0.5;
 
@@ -38,19 +34,19 @@ pub(super) fn simulate(
     progress.begin("full-order model", schedule.intervals);
     let folder = place.path().join("record");
     let plan = plan(case, &model);
-    let (recorder, first) = if let Some(snapshots) = checkpoint(place, &mut model)? {
-        (Recorder::resume(&folder, plan, snapshots)?, snapshots - 1)
+    let (recorder, before) = if let Some(before) = checkpoint::restore(place, &mut model)? {
+        (Recorder::resume(&folder, plan, before.snapshots)?, before)
     } else {
         place.fresh_folder("record")?;
-        (Recorder::create(&folder, case, plan, &model)?, 0)
+        let before = Progressed { snapshots: 0, work: Work::default() };
+        (Recorder::create(&folder, case, plan)?, before)
     };
-    let mut observer = Keeper { recorder, place, progress, between, saved: Instant::now() };
-    let work = advance(&mut model, schedule, first, &mut observer)?;
-    observer.recorder.finish()?;
-    let checkpoint = place.path().join(CHECKPOINT);
-    if checkpoint.exists() {
-        fs::remove_file(&checkpoint).map_err(|e| io_error("remove", &checkpoint, e))?;
-    }
+    let now = Instant::now();
+    let mut keeper = Keeper { recorder, place, progress, between, saved: now, before: before.work };
+    let work = advance(&mut model, schedule, before.snapshots, &mut keeper)?;
+    let work = before.work.and(&work);
+    // A run that is stopped in a later stage does not compute this one again.
+    keeper.save(&model, &Progressed { snapshots: schedule.snapshots(), work })?;
     Ok(work)
 }
 
@@ -60,6 +56,7 @@ fn plan(case: &Case, model: &Piston) -> Plan<Piston> {
     let one = |name, unit| vec![Quantity::new(name, unit)];
     let nodes = model.nodes().map(|xi| [xi, 0.0]).collect();
     Plan {
+        interval: case.schedule.interval,
         frames: vec![
             (fixed(case), Support::Grid(case.grid.clone())),
             (Frame::Reference, Support::Nodes(nodes)),
@@ -81,22 +78,6 @@ pub(super) fn fixed(case: &Case) -> Frame {
     Frame::Fixed { grid: case.grid.clone(), transfer: case.transfer }
 }
 
-/// Restores `model` from the checkpoint of an unfinished run; says how many snapshots stand before it.
-fn checkpoint(place: &Workplace, model: &mut Piston) -> Result<Option<usize>, Error> {
-    let path = place.path().join(CHECKPOINT);
-    if !place.resumed() || !path.exists() {
-        return Ok(None);
-    }
-    let bytes = fs::read(&path).map_err(|e| io_error("read", &path, e))?;
-    let damaged =
-        |message: &str| Error::Damaged { path: path.clone(), message: message.to_owned() };
-    let (count, mut state) = bytes.split_at_checked(8).ok_or_else(|| damaged("it is too short"))?;
-    let count = u64::from_le_bytes(count.try_into().expect("eight bytes were split off"));
-    Model::restore(model, &mut state).map_err(|e| damaged(&e.to_string()))?;
-    let count = usize::try_from(count).ok().filter(|count| *count >= 1);
-    count.map(Some).ok_or_else(|| damaged("it stands before the first snapshot"))
-}
-
 /// Records every snapshot, and keeps a checkpoint that matches what is on disk.
 struct Keeper<'a> {
     recorder: Recorder<Piston>,
@@ -104,26 +85,29 @@ struct Keeper<'a> {
     progress: &'a mut Progress,
     between: Duration,
     saved: Instant,
+    /// Work of the sessions before.
+    before: Work,
 }
 
-impl Observer<Piston> for Keeper<'_> {
-    fn observe(&mut self, model: &Piston, snapshot: usize) -> Result<(), Error> {
-        self.recorder.observe(model, snapshot)?;
-        let time = Model::time(model);
-        self.progress
-            .advance(snapshot, &format!("t = {time:.3} s, X = {:.4} m", model.interface()));
-        if self.saved.elapsed() >= self.between {
-            self.recorder.flush()?;
-            let mut bytes = (snapshot as u64 + 1).to_le_bytes().to_vec();
-            let path = self.place.path().join(CHECKPOINT);
-            Model::save(model, &mut bytes).map_err(|e| io_error("write", &path, e))?;
-            self.place.write(CHECKPOINT, &bytes)?;
-            self.saved = Instant::now();
-        }
+impl Keeper<'_> {
+    fn save(&mut self, model: &Piston, progressed: &Progressed) -> Result<(), Error> {
+        self.recorder.flush()?;
+        checkpoint::save(self.place, model, progressed)?;
+        self.saved = Instant::now();
         Ok(())
     }
 }
 
-fn io_error(action: &'static str, path: &Path, source: io::Error) -> Error {
-    DirectoryError::Io { action, path: path.to_owned(), source }.into()
+impl Observer<Piston> for Keeper<'_> {
+    fn observe(&mut self, model: &Piston, snapshot: usize, work: &Work) -> Result<(), Error> {
+        self.recorder.observe(model, snapshot, work)?;
+        let time = Model::time(model);
+        let message = format!("t = {time:.3} s, X = {:.4} m", model.interface());
+        self.progress.advance(snapshot, &message);
+        if self.saved.elapsed() >= self.between {
+            let work = self.before.and(work);
+            self.save(model, &Progressed { snapshots: snapshot + 1, work })?;
+        }
+        Ok(())
+    }
 }

@@ -17,7 +17,7 @@ pub(super) fn errors(case: &Case) -> Gauge<Piston> {
         let mut lost = [0.0; 3];
         for (k, way) in [Transfer::FiniteElement {}, inverse_distance].into_iter().enumerate() {
             way.transfer(model, &grid, &mut v).map_err(StepError::from)?;
-            let error = grid_error(model, &grid, &v);
+            let error = grid_error(model, &grid, &v).map_err(StepError::from)?;
             (lost[k], lost[2]) = (error.distance, error.norm);
         }
         Ok(lost.to_vec())

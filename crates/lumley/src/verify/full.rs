@@ -8,7 +8,7 @@ use crate::progress::Progress;
 use crate::record::Record;
 use crate::run::{self, Task};
 use crate::summary::Summary;
-use lumley_pod::{SparseSpd, trajectory_residual};
+use lumley_pod::trajectory_residual;
 use std::path::{Path, PathBuf};
 
 /// Largest growth of a reduced model's error when parameters or the time change.
@@ -95,8 +95,7 @@ impl<'a> Bench<'a> {
         let (case, _) = self.run("coarse", &[settings, &coarse].concat())?;
         let path = |name: &str| self.folder.join(name).join("record");
         let (fine, coarse) = (Record::open(path(name))?, Record::open(path("coarse"))?);
-        let product = SparseSpd::from_triplets(case.grid.len(), &case.grid.mass_matrix());
-        let product = product.expect("a mass matrix is symmetric positive definite");
+        let product = run::grid_product(&case.grid, 1);
         let error = trajectory_residual(&fine.frame("fixed")?, &coarse.frame("fixed")?, &product);
         Ok(100.0 * error.map_err(Error::pod(&path("coarse")))?)
     }

@@ -22,7 +22,7 @@ pub fn table(
     folder: &Path,
     full: bool,
     progress: &mut Progress,
-    mut show: impl FnMut(&Row),
+    mut show: impl FnMut(&Row) -> Result<(), Error>,
 ) -> Result<Vec<Row>, Error> {
     let mut all = Vec::new();
     let mut bench = Bench::new(folder, progress);
@@ -34,7 +34,7 @@ pub fn table(
             lines.extend(bench.rows(k, name, &settings, &summary)?);
         }
         for line in &lines {
-            show(line);
+            show(line)?;
         }
         all.extend(lines);
     }
@@ -79,7 +79,7 @@ pub enum Tolerance {
     Absolute(f64),
     /// This share of the reference.
     Relative(f64),
-    /// At least the reference: the claim is that it is bad. Nothing at all, a blow-up, passes.
+    /// At least the reference: the claim is that it is bad. A blow-up, infinite, passes.
     AtLeast,
     /// At most the reference.
     AtMost,
@@ -100,7 +100,6 @@ impl Row {
     /// Whether the computed number is within the tolerance.
     pub fn passes(&self) -> bool {
         match (self.tolerance, self.computed) {
-            (Tolerance::AtLeast, None) => true,
             (_, None) => false,
             (Tolerance::AtLeast, Some(x)) => x >= self.reference,
             (Tolerance::AtMost, Some(x)) => x <= self.reference,
@@ -110,7 +109,11 @@ impl Row {
 
     /// The line as it is printed.
     pub fn line(&self) -> String {
-        let computed = self.computed.map_or_else(|| "blew up".to_owned(), |x| format!("{x:.7}"));
+        let computed = match self.computed {
+            None => "nothing".to_owned(),
+            Some(x) if x.is_infinite() => "blew up".to_owned(),
+            Some(x) => format!("{x:.7}"),
+        };
         let tolerance = match self.tolerance {
             Tolerance::AtLeast => "or more".to_owned(),
             Tolerance::AtMost => "or less".to_owned(),
@@ -134,9 +137,10 @@ impl Row {
     }
 }
 
-/// Res of a reduced model with `modes` modes, in percent, as the summary has it.
+/// Res of a reduced model with `modes` modes, in percent, as the summary has it; infinite where it blew up.
 fn res(summary: &Summary, label: &str, modes: usize) -> Option<f64> {
     let model = summary.rom.iter().find(|model| model.label == label)?;
     let place = model.modes.iter().position(|n| *n == modes)?;
-    model.res_percent[place]
+    let blew_up = model.failure[place].as_ref().map(|_| f64::INFINITY);
+    model.res_percent[place].or(blew_up)
 }

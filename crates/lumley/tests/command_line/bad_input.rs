@@ -25,7 +25,7 @@ fn wrong_values_are_refused_with_their_place() {
         ("step = 5e-4 ", "step = 3e-4 ", &["time.step", "whole fraction", "such as"]),
         ("step = 5e-4 ", "step = -5e-4 ", &["time.step = -0.0005"]),
         ("scheme = \"bdf2\"", "scheme = \"bdf7\"", &["bdf7", "did you mean `bdf2`?"]),
-        ("cells = 800", "cells = 1000000000000000", &["mesh.cells", "at most"]),
+        ("cells = 800", "cells = 1000000000000000", &["mesh.cells", "2 to 1000000"]),
         ("nodes = 401", "nodes = 999999999999999", &["grid.nodes", "at most"]),
         ("interval = 0.01 ", "interval = 0.3 ", &["record.interval", "such as"]),
         ("method = \"auto\"", "method = \"magic\"", &["pod.method = magic", "snapshots"]),
@@ -58,6 +58,40 @@ fn settings_are_checked_like_the_file() {
     for (setting, words) in table {
         desk.lumley(&["check", "piston/case.toml", "--set", setting]).refused(2, words);
     }
+}
+
+/// The overlay of `--quick` is checked even when nobody asks for it, and replaces values whole.
+#[test]
+fn the_quick_table_is_checked_too() {
+    let desk = Desk::new();
+    let canonical = fs::read_to_string(desk.path("piston/case.toml")).expect("the case");
+    let slip = canonical.replace("mesh.cells = 100", "mesh.cels = 100");
+    desk.write("slip.toml", slip.as_bytes());
+    desk.lumley(&["check", "slip.toml"]).refused(2, &["[quick]", "did you mean `cells`?"]);
+    desk.lumley(&["check", "piston/case.toml", "--set", "quick.mesh.cells=7"])
+        .refused(2, &["expected KEY=VALUE"]);
+    let other = canonical.replace("mesh.cells = 100", "piston.initial_flow = { sine = 0.1 }");
+    let other = other.replace("initial_flow = \"zero\"", "initial_flow = { table = \"none.csv\" }");
+    desk.write("other.toml", other.as_bytes());
+    desk.lumley(&["check", "other.toml", "--quick"]).good();
+}
+
+/// What cannot be printed is an error, but for a reader that went away.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_cannot_be_printed_is_an_error() {
+    let desk = Desk::new();
+    let full = fs::OpenOptions::new().write(true).open("/dev/full").expect("a full device");
+    let output = desk.command(&["cases"]).stdout(full).output().expect("lumley starts");
+    crate::Answer::of(&output).refused(2, &["cannot print"]);
+}
+
+/// A device without an end is not read.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_case_file_is_a_file() {
+    let desk = Desk::new();
+    desk.lumley(&["run", "/dev/zero"]).refused(2, &["/dev/zero", "expected a case file"]);
 }
 
 #[test]

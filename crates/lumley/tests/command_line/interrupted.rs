@@ -46,9 +46,38 @@ fn a_killed_run_resumes_bit_for_bit() {
         let strip = |(path, bytes): (std::path::PathBuf, Vec<u8>)| {
             (path.strip_prefix(&root).expect("below").to_owned(), bytes)
         };
-        desk.files(&format!("{run}/record/frames")).into_iter().map(strip).collect()
+        desk.files(&format!("{run}/record")).into_iter().map(strip).collect()
     };
     assert!(relative("killed") == relative("whole"), "the records differ");
+}
+
+/// A run that is killed behind the full-order model does not compute that again, and another table of the
+/// initial flow is another case.
+#[test]
+fn later_stages_resume_from_the_record() {
+    let desk = Desk::new();
+    desk.write("piston/flow.csv", b"x,u\n0,0\n0.45,0.05\n0.9,0\n");
+    let flow = "piston.initial_flow={ table = \"flow.csv\" }";
+    let run = ["run", "piston/case.toml", "--quick", "-o", "late", "--set", flow];
+    let mut child = desk.command(&run).stderr(Stdio::null()).spawn().expect("lumley starts");
+    let started = Instant::now();
+    while !desk.path("late.partial/basis/fixed.npz").exists() {
+        assert!(started.elapsed() < Duration::from_secs(60), "no basis in a minute");
+        sleep(Duration::from_millis(1));
+    }
+    child.kill().expect("killed");
+    child.wait().expect("gone");
+    desk.write("piston/flow.csv", b"x,u\n0,0\n0.45,0.06\n0.9,0\n");
+    let resume = [&run[..], &["--resume"]].concat();
+    desk.lumley(&resume).refused(2, &["another case"]);
+    desk.write("piston/flow.csv", b"x,u\n0,0\n0.45,0.05\n0.9,0\n");
+    let block = desk.path("late.partial/record/frames/fixed/values/c/0/0");
+    let made = fs::metadata(&block).and_then(|about| about.modified()).expect("a block");
+    desk.lumley(&resume).good();
+    let block = desk.path("late/record/frames/fixed/values/c/0/0");
+    let kept = fs::metadata(&block).and_then(|about| about.modified()).expect("a block");
+    assert_eq!(made, kept, "the record was written again");
+    assert!(!desk.path("late/checkpoint").exists());
 }
 
 #[test]

@@ -79,6 +79,26 @@ fn weights_scale_the_energy() {
     assert_eq!(summary(&desk, &nodes).pod.total_energy, weighted.pod.total_energy);
 }
 
+/// Unequal steps are weighed by the trapezoid rule, equal ones all alike.
+#[test]
+fn times_weigh_the_snapshots() {
+    let desk = desk_with_waves();
+    let equal: Vec<f64> = (0..40).map(|k| 0.25 * f64::from(k)).collect();
+    let unequal: Vec<f64> = (0..40).map(|k| f64::from(k * k)).collect();
+    write_vector(desk.path("equal.npy"), &equal).expect("a file");
+    write_vector(desk.path("unequal.npy"), &unequal).expect("a file");
+    let weights = |times: &str| {
+        summary(&desk, &["--modes", "3", "--times", times, "-o", &format!("{times}-out")]);
+        let npz = NpzReader::open(desk.path(&format!("{times}-out/pod.npz"))).expect("an archive");
+        npz.vector("time_weights").expect("an array")
+    };
+    assert!(weights("equal.npy").iter().all(|w| (w - 1.0 / 40.0).abs() < 1e-15));
+    let found = weights("unequal.npy");
+    // Half the first step, half of both steps round snapshot 5, over the whole time.
+    assert!((found[0] - 0.5 / 1521.0).abs() < 1e-15, "{}", found[0]);
+    assert!((found[5] - 10.0 / 1521.0).abs() < 1e-15, "{}", found[5]);
+}
+
 #[test]
 fn more_modes_than_the_rank_are_the_ranks_with_a_warning() {
     let desk = desk_with_waves();
@@ -118,7 +138,10 @@ fn bad_snapshots_are_refused() {
     write_matrix(desk.path("none.npy"), Mat::<f64>::zeros(0, 5).as_ref()).expect("a file");
     write_vector(desk.path("negative.npy"), &[-1.0; 60]).expect("a file");
     write_vector(desk.path("short.npy"), &[1.0; 7]).expect("a file");
-    let table: [(&[&str], &[&str]); 11] = [
+    let table: [(&[&str], &[&str]); 14] = [
+        (&["x.npy", "--components", "7"], &["--components 7", "divisor"]),
+        (&["x.npy", "--components", "0"], &["--components 0", "divisor"]),
+        (&["x.npy", "--grid", "6,5,2,1"], &["--grid 6,5,2,1", "one to three"]),
         (&["nan.npy"], &["nan.npy", "snapshot 7", "row 11", "NaN"]),
         (&["zero.npy"], &["zero.npy", "no energy"]),
         (&["constant.npy", "--center"], &["constant.npy", "constant in time"]),
@@ -134,8 +157,17 @@ fn bad_snapshots_are_refused() {
     for (arguments, words) in table {
         desk.lumley(&[&["pod"], arguments, &["-o", "out"]].concat()).refused(2, words);
         assert!(!desk.path("out").exists(), "{arguments:?}");
-        let _ = std::fs::remove_dir_all(desk.path("out.partial"));
+        assert!(!desk.path("out.partial").exists(), "{arguments:?}");
     }
+}
+
+#[test]
+fn a_pod_directory_is_no_run() {
+    let desk = desk_with_waves();
+    desk.lumley(&["pod", "x.npy", "-o", "out"]).good();
+    desk.lumley(&["report", "out"]).refused(2, &["out", "lumley pod"]);
+    desk.lumley(&["rom", "out"]).refused(2, &["out", "lumley run"]);
+    assert!(desk.lumley(&["info", "out/pod.npz"]).good().stdout.contains("modes"));
 }
 
 /// A header that claims 10^18 numbers in a file of 200 bytes.

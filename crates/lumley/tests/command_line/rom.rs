@@ -48,6 +48,18 @@ fn long_runs_and_changed_parameters_stay_accurate() {
     }
 }
 
+/// Beyond the record there is nothing to compare with, and the summary says how far it went.
+#[test]
+fn a_longer_run_is_compared_as_far_as_the_record_goes() {
+    let desk = Desk::new();
+    desk.quick_run();
+    let longer = summary(&desk, &["--set", "time.end=4", "-o", "longer"]);
+    assert!(longer.warnings.iter().any(|w| w.contains("first 2 s")), "{:?}", longer.warnings);
+    assert_eq!(longer.record.snapshots, 201);
+    let shorter = summary(&desk, &["--set", "time.end=1", "-o", "shorter"]);
+    assert_eq!(shorter.record.snapshots, 101);
+}
+
 /// Without the full-order model beside them, changed models run and are compared with nothing.
 #[test]
 fn changed_models_are_not_compared_with_another_flow() {
@@ -64,10 +76,19 @@ fn changed_models_are_not_compared_with_another_flow() {
 fn another_basis_is_refused() {
     let desk = Desk::new();
     desk.quick_run();
-    for setting in ["grid.nodes=101", "mesh.cells=50", "piston.domain_length=1.2"] {
+    let settings = [
+        ("grid.nodes=101", "grid"),
+        ("mesh.cells=50", "mesh"),
+        ("piston.domain_length=1.2", "domain_length"),
+        ("pod.center=true", "pod"),
+        ("transfer.method=inverse-distance", "transfer"),
+    ];
+    for (setting, word) in settings {
         let arguments = ["rom", "run", "--set", setting, "-o", "other"];
-        desk.lumley(&arguments).refused(2, &["lumley run", "mesh"]);
+        desk.lumley(&arguments).refused(2, &["lumley run", word]);
     }
+    desk.lumley(&["rom", "run", "-o", "./run/", "--force"]).refused(2, &["its own reduced models"]);
+    assert!(desk.path("run/record/zarr.json").is_file());
     desk.lumley(&["rom", "piston", "-o", "other"]).refused(2, &["no run of lumley here"]);
     assert!(!desk.path("other").exists() && !desk.path("other.partial").exists());
 }

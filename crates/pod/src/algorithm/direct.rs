@@ -22,6 +22,15 @@ use std::ops::Range;
 /// # Errors
 /// Every variant of [`PodError`] but those about other algorithms; [`PodError::Memory`] where the
 /// n x n problem exceeds the memory limit of the options.
+///
+/// ```
+/// use lumley_pod::{Identity, MemorySnapshots, Options, Truncation, direct};
+/// let x = faer::mat![[3.0, 0.0], [0.0, 4.0]];
+/// let options = Options { truncation: Truncation::Modes(1), ..Options::default() };
+/// let basis = direct(&MemorySnapshots::new(x, vec![0.0, 1.0]), &Identity::new(2), &options)?;
+/// assert!((basis.eigenvalues[0] - 8.0).abs() < 1e-14);
+/// # Ok::<(), lumley_pod::PodError>(())
+/// ```
 pub fn direct(
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
@@ -49,7 +58,8 @@ pub(super) fn correlation_in_space(ensemble: &Ensemble<'_>) -> Result<Spatial, P
     correlation *= faer::Scale(1.0 / m as f64);
     let (mut lambda, psi) = dense::eigen_descending(correlation.as_ref())?;
     lambda.truncate(n.min(m));
-    Ok(Spatial { spectrum: ensemble.spectrum(lambda, n as f64 * f64::EPSILON, false)?, psi })
+    let squaring = n as f64 * f64::EPSILON * lambda[0];
+    Ok(Spatial { spectrum: ensemble.spectrum(lambda, Some(squaring))?, psi })
 }
 
 pub(super) fn finish_in_space(

@@ -1,7 +1,7 @@
 //! From eigenvectors in time to modes in space.
 
 use crate::ensemble::Ensemble;
-use crate::product::{combine, gram, product};
+use crate::product::{combine, factor_of_weighted, product};
 use crate::spectrum::Spectrum;
 use crate::{Note, PodError, ReducedBasis, dense};
 use faer::{Mat, MatRef};
@@ -22,6 +22,9 @@ pub(super) fn lift(
 ) -> Result<ReducedBasis, PodError> {
     let Temporal { spectrum, vectors } = temporal;
     let (kept, note) = spectrum.keep(ensemble.options.truncation);
+    if kept == 0 {
+        return Err(PodError::LostOrthogonality);
+    }
     let sigma = singular_values(&spectrum.values[..kept], ensemble.scale.len());
     let v = vectors.subcols(0, kept);
     let to_modes = Mat::from_fn(v.nrows(), kept, |j, k| v[(j, k)] / sigma[k]);
@@ -33,18 +36,29 @@ pub(super) fn lift(
     Ok(finish(algorithm, ensemble, spectrum, Parts { modes, coefficients, note }))
 }
 
-/// `Phi = Q R` by Cholesky: R is the identity up to the relative error of the smallest modes, and
-/// being triangular it leaves the larger modes alone.
-fn orthonormal(ensemble: &Ensemble<'_>, modes: Mat<f64>) -> Result<(Mat<f64>, Mat<f64>), PodError> {
+/// `Phi = Q R`, repeated until Q is orthonormal: R is the identity up to the relative error of the
+/// smallest modes, and being triangular it leaves the larger modes alone.
+fn orthonormal(
+    ensemble: &Ensemble<'_>,
+    mut modes: Mat<f64>,
+) -> Result<(Mat<f64>, Mat<f64>), PodError> {
     const ROUND_OFF: f64 = 1e-14;
+    const PASSES: usize = 3;
     let (par, size) = (ensemble.options.par, modes.ncols());
-    let metric = gram(&modes.as_ref(), ensemble.product, par)?;
     let identity = Mat::<f64>::identity(size, size);
-    if (&metric - &identity).norm_max() <= ROUND_OFF {
-        return Ok((modes, identity));
+    let (mut r, mut last) = (identity.clone(), f64::INFINITY);
+    for _ in 0..PASSES {
+        let step = factor_of_weighted(&modes.as_ref(), ensemble.product, par)?;
+        let defect = (step.transpose() * &step - &identity).norm_max();
+        // What rounding of the modes leaves, times the condition of W, is not improved upon.
+        if defect <= ROUND_OFF || defect > 0.1 * last {
+            break;
+        }
+        let inverse = dense::upper_inverse(step.as_ref()).ok_or(PodError::LostOrthogonality)?;
+        modes = combine(&modes.as_ref(), inverse.as_ref(), par)?;
+        r = product(step.as_ref(), r.as_ref());
+        last = defect;
     }
-    let (r, inverse) = dense::cholesky(metric.as_ref()).ok_or(PodError::LostOrthogonality)?;
-    let modes = combine(&modes.as_ref(), inverse.as_ref(), par)?;
     Ok((modes, r))
 }
 
@@ -81,7 +95,7 @@ pub(super) fn finish(
         eigenvalues,
         modes,
         coefficients,
-        mean: ensemble.mean.clone(),
+        mean: ensemble.mean.as_ref().map(|mean| mean.field.clone()),
         total_energy: spectrum.values.iter().sum(),
         noise_floor: spectrum.floor,
         rank: spectrum.rank(),

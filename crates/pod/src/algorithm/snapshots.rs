@@ -9,12 +9,23 @@ use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense
 /// C_ik = (u_i, u_k)/M,   C c = lambda c,   Phi_n = sum_k c_k u_k / sqrt(M lambda_n)
 /// ```
 ///
-/// Cost n M² + M³ flops and two passes over the snapshots. The correlation matrix squares the
-/// condition number: modes with `lambda <= M eps lambda_1` are noise and are left out, with a
-/// [`Note`](crate::Note). An eigenvalue has a relative error of up to `M eps lambda_1/lambda`.
+/// Cost n M² + M³ flops and two passes over the snapshots; where the inner product couples rows,
+/// one more, and one for every 64 snapshots after the first 64. The correlation matrix squares the
+/// condition number: modes with `lambda <= M eps lambda_1`, or `8 eps sum_i W_ii <u_i²>` where
+/// coupled rows make that larger, are noise and are left out, with a [`Note`](crate::Note). An
+/// eigenvalue has an error of up to that.
 ///
 /// # Errors
 /// Every variant of [`PodError`] but those about other algorithms.
+///
+/// ```
+/// use lumley_pod::{Identity, MemorySnapshots, Options, Truncation, method_of_snapshots};
+/// let x = faer::mat![[3.0, 0.0], [0.0, 4.0]];
+/// let options = Options { truncation: Truncation::Modes(1), ..Options::default() };
+/// let basis = method_of_snapshots(&MemorySnapshots::new(x, vec![0.0, 1.0]), &Identity::new(2), &options)?;
+/// assert!((basis.eigenvalues[0] - 8.0).abs() < 1e-14);
+/// # Ok::<(), lumley_pod::PodError>(())
+/// ```
 pub fn method_of_snapshots(
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
@@ -36,6 +47,6 @@ pub(super) fn correlation_in_time(ensemble: &Ensemble<'_>) -> Result<Temporal, P
     correlation *= faer::Scale(1.0 / m as f64);
     let (mut lambda, vectors) = dense::eigen_descending(correlation.as_ref())?;
     lambda.truncate(n.min(m));
-    let spectrum = ensemble.spectrum(lambda, m as f64 * f64::EPSILON, false)?;
-    Ok(Temporal { spectrum, vectors })
+    let squaring = ensemble.squaring(&lambda);
+    Ok(Temporal { spectrum: ensemble.spectrum(lambda, Some(squaring))?, vectors })
 }

@@ -10,12 +10,22 @@ use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense
 /// ```
 ///
 /// R comes from Householder reflections of blocks of rows (TSQR), so that nothing is squared:
-/// singular values are right to a few `eps sigma_1` on any spectrum. Cost 2 n M² flops and two
-/// passes over the snapshots. Where the inner product couples rows, one weighted copy of the
-/// snapshots is held in memory.
+/// singular values are right to a few `eps sigma_1` on any spectrum. Where the inner product
+/// couples rows, entries that are right to `eps` of themselves leave an error of
+/// `4 eps sqrt(M sum_i W_ii <u_i²>)` instead. Cost 2 n M² flops and two passes over the snapshots;
+/// where rows are coupled, a third, and one weighted copy of the snapshots is held in memory.
 ///
 /// # Errors
 /// Every variant of [`PodError`] but those about other algorithms.
+///
+/// ```
+/// use lumley_pod::{Identity, MemorySnapshots, Options, Truncation, svd};
+/// let x = faer::mat![[3.0, 0.0], [0.0, 4.0]];
+/// let options = Options { truncation: Truncation::Modes(1), ..Options::default() };
+/// let basis = svd(&MemorySnapshots::new(x, vec![0.0, 1.0]), &Identity::new(2), &options)?;
+/// assert!((basis.eigenvalues[0] - 8.0).abs() < 1e-14);
+/// # Ok::<(), lumley_pod::PodError>(())
+/// ```
 pub fn svd(
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
@@ -33,10 +43,5 @@ pub(super) fn bi_orthogonal(ensemble: &Ensemble<'_>) -> Result<Temporal, PodErro
     let r = factor_of_weighted(ensemble, ensemble.product, ensemble.options.par)?;
     let (sigma, vectors) = dense::right_svd(r.as_ref())?;
     let lambda: Vec<f64> = sigma.iter().map(|s| s * s / m as f64).collect();
-    Ok(Temporal { spectrum: ensemble.spectrum(lambda, round_off(m).powi(2), true)?, vectors })
-}
-
-/// Singular value, relative to the first, that the round-off of M reflections makes of a zero.
-fn round_off(snapshots: usize) -> f64 {
-    4.0 * f64::EPSILON * (snapshots as f64).sqrt()
+    Ok(Temporal { spectrum: ensemble.spectrum(lambda, None)?, vectors })
 }

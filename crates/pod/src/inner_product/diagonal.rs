@@ -41,6 +41,10 @@ impl InnerProduct for Diagonal {
         false
     }
 
+    fn diagonal(&self) -> Vec<f64> {
+        self.weights.clone()
+    }
+
     fn apply(&self, first: usize, x: MatMut<'_, f64>) {
         update_rows(&self.weights[first..], x, |x, w| x * w);
     }

@@ -28,6 +28,10 @@ impl InnerProduct for Identity {
         false
     }
 
+    fn diagonal(&self) -> Vec<f64> {
+        vec![1.0; self.dim]
+    }
+
     fn apply(&self, _first: usize, _x: MatMut<'_, f64>) {}
 
     fn factor(&self, _first: usize, _x: MatMut<'_, f64>) {}

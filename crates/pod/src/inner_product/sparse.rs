@@ -79,6 +79,11 @@ impl InnerProduct for SparseSpd {
         true
     }
 
+    fn diagonal(&self) -> Vec<f64> {
+        let at = |i| self.matrix.get(i, i).copied().unwrap_or(0.0);
+        (0..self.dim()).map(at).collect()
+    }
+
     fn apply(&self, first: usize, x: MatMut<'_, f64>) {
         self.by_column(first, x, |old, new| {
             for (j, new) in new.iter_mut().enumerate() {
@@ -178,6 +183,35 @@ mod tests {
 
         w.unfactor(0, f.as_mut());
         let defect = (f - Mat::<f64>::identity(size, size)).norm_max();
+        assert!(defect < 1e-14, "|F⁻¹F - I| = {defect:e}");
+        Ok(())
+    }
+
+    /// Bilinear elements on a square of 9 x 9 nodes: the factor has entries where W has none.
+    #[test]
+    fn w_is_the_square_of_a_factor_with_fill_in() -> Result<(), InnerProductError> {
+        const SIDE: usize = 9;
+        let line = |i: usize, j: usize| match i.abs_diff(j) {
+            0 if i == 0 || i == SIDE - 1 => 2.0,
+            0 => 4.0,
+            1 => 1.0,
+            _ => 0.0,
+        };
+        let mass = Mat::from_fn(SIDE * SIDE, SIDE * SIDE, |i, j| {
+            line(i / SIDE, j / SIDE) * line(i % SIDE, j % SIDE)
+        });
+        let all = (0..SIDE * SIDE).flat_map(|i| (0..SIDE * SIDE).map(move |j| (i, j)));
+        let entries: Vec<_> =
+            all.map(|(i, j)| (i, j, mass[(i, j)])).filter(|entry| entry.2 != 0.0).collect();
+        let w = SparseSpd::from_triplets(SIDE * SIDE, &entries)?;
+        let triangle = entries.iter().filter(|(i, j, _)| i >= j).count();
+        assert!(w.lower.compute_nnz() > triangle, "no fill-in");
+        let mut f = Mat::<f64>::identity(SIDE * SIDE, SIDE * SIDE);
+        w.factor(0, f.as_mut());
+        let defect = (f.transpose() * &f - &mass).norm_max();
+        assert!(defect < 1e-13, "|FᵀF - W| = {defect:e}");
+        w.unfactor(0, f.as_mut());
+        let defect = (f - Mat::<f64>::identity(SIDE * SIDE, SIDE * SIDE)).norm_max();
         assert!(defect < 1e-14, "|F⁻¹F - I| = {defect:e}");
         Ok(())
     }

@@ -53,14 +53,26 @@ pub fn mass_matrix(n: usize) -> SparseSpd {
     SparseSpd::from_triplets(n, &entries).expect("a mass matrix is positive definite")
 }
 
+/// Mass and stiffness matrix of equal linear elements on a line of length 1: the product of H¹.
+pub fn h1(n: usize) -> SparseSpd {
+    let h = 1.0 / (n - 1) as f64;
+    let (diagonal, other) = (h / 3.0 + 1.0 / h, h / 6.0 - 1.0 / h);
+    let of_cell = |k: usize| {
+        [(k, k, diagonal), (k, k + 1, other), (k + 1, k, other), (k + 1, k + 1, diagonal)]
+    };
+    let entries: Vec<_> = (0..n - 1).flat_map(of_cell).collect();
+    SparseSpd::from_triplets(n, &entries).expect("positive definite")
+}
+
 /// An inner product of each kind.
-pub fn products(n: usize) -> [(&'static str, Box<dyn InnerProduct>); 3] {
+pub fn products(n: usize) -> [(&'static str, Box<dyn InnerProduct>); 4] {
     let mut next = random(3);
     let weights = (0..n).map(|_| 1.5 + next()).collect();
     [
         ("identity", Box::new(Identity::new(n))),
         ("diagonal", Box::new(Diagonal::new(weights).expect("positive"))),
         ("sparse", Box::new(mass_matrix(n))),
+        ("H1", Box::new(h1(n))),
     ]
 }
 

@@ -5,7 +5,8 @@ use crate::ReducedError;
 
 /// Largest departure of `(Φ_i, Φ_j)` from `δ_ij` that is put down to round-off in POD.
 const ORTHONORMALITY: f64 = 1e-6;
-/// Largest value at an end of the reference frame that is put down to round-off.
+/// Largest value at an end of the reference frame, over the function's largest value, that is put down to
+/// round-off.
 const HOMOGENEITY: f64 = 1e-8;
 /// Largest departure of a reference node from its place.
 const PLACE: f64 = 1e-12;
@@ -70,7 +71,9 @@ pub(super) fn homogeneous(basis: &Basis) -> Result<(), ReducedError> {
     let ends = [basis.order[0], basis.order[basis.order.len() - 1]];
     for (end, node) in ends.into_iter().enumerate() {
         for (n, &value) in basis.row(node).iter().enumerate() {
-            if value.abs() > HOMOGENEITY {
+            let largest =
+                (0..basis.nodes().len()).fold(0.0, |max, k| basis.row(k)[n].abs().max(max));
+            if value.abs() > HOMOGENEITY * largest {
                 let what = if n < basis.frozen() { "the mean" } else { "a mode" };
                 return Err(ReducedError::NotHomogeneous { what, end, value });
             }

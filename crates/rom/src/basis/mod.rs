@@ -177,6 +177,11 @@ impl Basis {
         &self.nodes
     }
 
+    /// Where the last node lies: L in m on a grid, 1 in the reference frame.
+    pub(crate) fn extent(&self) -> f64 {
+        self.nodes[self.mesh.cells()]
+    }
+
     /// Number of functions, the mean included; it comes first.
     pub(crate) fn width(&self) -> usize {
         self.width
@@ -199,7 +204,7 @@ impl Basis {
 
     /// `sum_n a_n Φ_n` at `x`, with a coefficient for the mean; at an end for an `x` beyond it.
     pub(crate) fn evaluate(&self, x: f64, a: &[f64]) -> f64 {
-        let inside = x.clamp(self.nodes[0], self.nodes[self.mesh.cells()]);
+        let inside = x.clamp(self.nodes[0], self.extent());
         let (cell, s) = self.mesh.locate(&self.nodes, inside).expect("clamped to the mesh");
         let (phi, _) = self.shape(s);
         self.mesh.cell_nodes(cell).zip(phi).map(|(k, f)| f * dot(self.row(k), a)).sum()
@@ -210,7 +215,7 @@ impl Basis {
     pub(crate) fn integrate(&self, mut visit: impl FnMut(f64, &[f64], &[f64])) {
         let (mut value, mut slope) = (vec![0.0; self.width], vec![0.0; self.width]);
         for (cell, s, weight) in self.points() {
-            let size = self.size(cell);
+            let size = self.nodes[cell + 1] - self.nodes[cell];
             let (phi, dphi) = self.shape(s);
             value.fill(0.0);
             slope.fill(0.0);
@@ -226,16 +231,9 @@ impl Basis {
 
     fn apply_mass(&mut self) {
         let n = self.width;
-        for (cell, s, weight) in self.points() {
-            let size = self.size(cell);
-            let (phi, _) = self.shape(s);
-            for (i, row) in self.mesh.cell_nodes(cell).enumerate() {
-                for (j, column) in self.mesh.cell_nodes(cell).enumerate() {
-                    let mass = weight * size * phi[i] * phi[j];
-                    let (dual, values) = (&mut self.dual[row * n..], &self.values[column * n..]);
-                    dual.iter_mut().zip(&values[..n]).for_each(|(d, v)| *d += mass * v);
-                }
-            }
+        for (row, column, mass) in self.mesh.mass_matrix(&self.nodes) {
+            let (dual, values) = (&mut self.dual[row * n..], &self.values[column * n..]);
+            dual.iter_mut().zip(&values[..n]).for_each(|(d, v)| *d += mass * v);
         }
     }
 
@@ -244,10 +242,6 @@ impl Basis {
         let rule = gauss_legendre((3 * self.mesh.element().degree()).div_ceil(2));
         let of_cell = move |cell| rule.clone().into_iter().map(move |(s, w)| (cell, s, w));
         (0..self.mesh.cells()).flat_map(of_cell)
-    }
-
-    fn size(&self, cell: usize) -> f64 {
-        self.nodes[cell + 1] - self.nodes[cell]
     }
 
     /// Values and slopes of the element's functions at `s` in (0, 1); unused entries are zero.

@@ -30,6 +30,14 @@ pub enum ClosureKind {
 }
 
 impl ClosureKind {
+    /// The name in a case file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::None {} => "none",
+            Self::EddyViscosity(_) => "eddy-viscosity",
+        }
+    }
+
     pub(crate) fn validate(&self) -> Result<(), ReducedError> {
         match self {
             Self::None {} => Ok(()),

@@ -9,8 +9,8 @@ pub(crate) use rk4::Rk4;
 pub use rosenbrock::Rosenbrock;
 pub(crate) use stability::stable_step;
 
-use crate::ReducedError;
 use crate::choice::{FromTable, name_or_table};
+use crate::{Divergence, ReducedError};
 use rosenbrock::Rodas4;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -25,14 +25,14 @@ pub(crate) trait Stepper: Send + Sync {
     /// Moves `y` by `dt`. `rates` is `f(y)` before and after.
     ///
     /// # Errors
-    /// The last step tried, when error control accepts none; `y` is then worthless.
+    /// Error control that accepts no step, or too many; `y` is then worthless.
     fn step(
         &mut self,
         system: &mut dyn System,
         y: &mut [f64],
         rates: &mut [f64],
         dt: f64,
-    ) -> Result<(), StepUnderflow>;
+    ) -> Result<(), Divergence>;
 
     /// The step in s that error control would take next; zero before the first one.
     fn suggestion(&self) -> f64 {
@@ -44,13 +44,6 @@ pub(crate) trait Stepper: Send + Sync {
 
     /// Whether the method is explicit, so that [`stable_step`] bounds its step.
     fn is_explicit(&self) -> bool;
-}
-
-/// Error control went below every sensible step.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct StepUnderflow {
-    /// Last step tried, in s.
-    pub tried: f64,
 }
 
 /// The integrators of a case file: `"rk4"`, `"rosenbrock"`, or a table with `kind` and parameters.
@@ -73,7 +66,11 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    pub(crate) fn validate(&self) -> Result<(), ReducedError> {
+    /// Checks every parameter.
+    ///
+    /// # Errors
+    /// A tolerance out of its range, with its value.
+    pub fn validate(&self) -> Result<(), ReducedError> {
         match self {
             Self::Rk4 {} => Ok(()),
             Self::Rosenbrock(method) => method.validate(),

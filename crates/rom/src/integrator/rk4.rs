@@ -1,4 +1,5 @@
-use super::{StepUnderflow, Stepper, System, offset};
+use super::{Stepper, System, offset};
+use crate::Divergence;
 
 /// The classical explicit Runge-Kutta method of order 4 with a constant step.
 ///
@@ -24,7 +25,7 @@ impl Stepper for Rk4 {
         y: &mut [f64],
         rates: &mut [f64],
         dt: f64,
-    ) -> Result<(), StepUnderflow> {
+    ) -> Result<(), Divergence> {
         self.sum.copy_from_slice(rates);
         self.slope.copy_from_slice(rates);
         for (reach, weight) in [(0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {

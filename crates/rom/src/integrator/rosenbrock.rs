@@ -1,6 +1,6 @@
 use super::lu::Lu;
-use super::{StepUnderflow, Stepper, System};
-use crate::ReducedError;
+use super::{Stepper, System};
+use crate::{Divergence, ReducedError};
 use serde::{Deserialize, Serialize};
 
 /// The adaptive Rosenbrock method RODAS of order 4(3), L-stable (Hairer and Wanner, Solving Ordinary
@@ -85,6 +85,8 @@ const RIGHT: [[f64; 5]; STAGES] = [
 ];
 /// Smallest substep, as a part of the step asked for.
 const SMALLEST: f64 = 1e-12;
+/// Most substeps, rejected ones included, in the step asked for.
+const MOST: usize = 1_000_000;
 
 /// The work space of [`Rosenbrock`].
 pub(super) struct Rodas4 {
@@ -169,11 +171,11 @@ impl Stepper for Rodas4 {
         y: &mut [f64],
         rates: &mut [f64],
         dt: f64,
-    ) -> Result<(), StepUnderflow> {
+    ) -> Result<(), Divergence> {
         let mut left = dt;
         let mut wanted = if self.suggestion > 0.0 { self.suggestion } else { 1e-3 * dt };
         self.linearise(system, y, rates);
-        while left > 0.0 {
+        for _ in 0..MOST {
             let h = left / (left / wanted).ceil().max(1.0);
             let error = self.attempt(system, y, rates, h);
             wanted =
@@ -183,14 +185,15 @@ impl Stepper for Rodas4 {
                 system.rates(y, rates);
                 left = if h < left { left - h } else { 0.0 };
                 self.suggestion = wanted;
-                if left > 0.0 {
-                    self.linearise(system, y, rates);
+                if left == 0.0 {
+                    return Ok(());
                 }
+                self.linearise(system, y, rates);
             } else if wanted < SMALLEST * dt {
-                return Err(StepUnderflow { tried: h });
+                return Err(Divergence::StepUnderflow { tried: h });
             }
         }
-        Ok(())
+        Err(Divergence::Substeps { count: MOST, left })
     }
 
     fn suggestion(&self) -> f64 {

@@ -11,13 +11,14 @@ const ITERATIONS: u32 = 200;
 ///
 /// The radius comes from the power method on differences of `f`, accurate to a few per cent, from below. It
 /// is right for systems whose fastest part decays, as viscosity and interface forces do; the region
-/// reaches about as far (2.83) along the imaginary axis.
-pub(crate) fn stable_step(system: &mut dyn System, y: &[f64]) -> f64 {
+/// reaches about as far (2.83) along the imaginary axis. The differences are small against `size`, over which
+/// the rates must be smooth: the position of the body, say.
+pub(crate) fn stable_step(system: &mut dyn System, y: &[f64], size: f64) -> f64 {
     let n = y.len();
     let [mut base, mut ahead, mut state] = [(); 3].map(|()| vec![0.0; n]);
     system.rates(y, &mut base);
     let mut direction: Vec<f64> = (0..n).map(|i| 1.0 + (i as f64).sin()).collect();
-    let scale = 1e-7 * norm(y).max(1.0);
+    let scale = 1e-7 * size;
     let mut growth = 0.0;
     for iteration in 0..ITERATIONS {
         let length = norm(&direction);

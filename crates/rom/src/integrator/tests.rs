@@ -139,13 +139,36 @@ fn stable_step_is_the_bound_over_the_spectral_radius() {
     let mut decays = Problem(|y: &[f64], rates: &mut [f64]| {
         rates.copy_from_slice(&[-3.0 * y[0], -400.0 * y[1] + 7.0 * y[0], -399.0 * y[2]]);
     });
-    let found = stable_step(&mut decays, &[0.1, 0.0, 0.9]);
+    let found = stable_step(&mut decays, &[0.1, 0.0, 0.9], 0.9);
     assert!((found * 400.0 / 2.785 - 1.0).abs() < 0.01, "{found}");
     let mut swings = Problem(|y: &[f64], rates: &mut [f64]| {
         rates.copy_from_slice(&[y[1], -79.0 * y[0] - 0.2 * y[1]]);
     });
-    let found = stable_step(&mut swings, &[0.0, 0.0]);
+    let found = stable_step(&mut swings, &[0.0, 0.0], 1.0);
     assert!((found * 79_f64.sqrt() / 2.785 - 1.0).abs() < 0.05, "{found}");
     let mut rests = Problem(|_: &[f64], rates: &mut [f64]| rates.fill(0.0));
-    assert_eq!(stable_step(&mut rests, &[1.0]), f64::INFINITY);
+    assert_eq!(stable_step(&mut rests, &[1.0], 1.0), f64::INFINITY);
+}
+
+/// `y' = y0²/y` changes over lengths of y0, here a micrometre: its slope is −1 there.
+#[test]
+fn stable_step_looks_closely_enough() {
+    let size = 1e-6;
+    let mut system = Problem(|y: &[f64], rates: &mut [f64]| rates[0] = size * size / y[0]);
+    let found = stable_step(&mut system, &[size], size);
+    assert!((found / 2.785_293_563 - 1.0).abs() < 1e-6, "{found}");
+}
+
+/// An oscillation of which the step asked for holds far more than a million substeps.
+#[test]
+fn rodas_counts_its_substeps() {
+    let omega = 1e5;
+    let mut system = Problem(|y: &[f64], rates: &mut [f64]| {
+        rates[0] = omega * y[1];
+        rates[1] = -omega * y[0];
+    });
+    let (mut y, mut rates) = ([1.0, 0.0], [0.0, -omega]);
+    let seen = Rodas4::new(2, 1e-12).step(&mut system, &mut y, &mut rates, 1.0);
+    let Err(Divergence::Substeps { count: 1_000_000, left }) = seen else { panic!("{seen:?}") };
+    assert!(left > 0.0 && left < 1.0, "{left}");
 }

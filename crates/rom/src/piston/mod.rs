@@ -7,9 +7,10 @@ pub(crate) use physics::Motion;
 pub use physics::{PistonPhysics, PistonStart};
 
 use crate::basis::{Basis, Frame, norm};
-use crate::integrator::{Integrator, StepUnderflow, Stepper, System, stable_step};
-use crate::projection::{Projection, project};
+use crate::integrator::{Integrator, Stepper, System, stable_step};
+use crate::projection::{Projection, ProjectionKind, project};
 use crate::{Divergence, ModelChoice, ReducedError};
+use checkpoint::{Identity, identity};
 use lumley_body::BodyState;
 use lumley_fem::UniformGrid;
 
@@ -49,11 +50,13 @@ pub struct ReducedPiston {
     system: PistonSystem,
     stepper: Box<dyn Stepper>,
     basis: Basis,
+    kind: ProjectionKind,
+    identity: Identity,
     time: f64,
     now: State,
     next: State,
     body: BodyState,
-    /// Largest norm of the coefficients with the body's velocity that makes sense.
+    /// Largest [`norm_of`](Self::norm_of) a state that makes sense.
     limit: f64,
     length: f64,
     /// Positions in m between which the spring lets the block move from the start.
@@ -111,12 +114,13 @@ impl ReducedPiston {
             system: PistonSystem { projection: project(model, physics, basis)?, traction: 0.0 },
             stepper: integrator.stepper(state.y.len()),
             basis: basis.clone(),
+            kind: model.projection,
+            identity: identity(physics, model, integrator, basis),
             time: 0.0,
             next: state.clone(),
             now: state,
             body: BodyState::new(vec![start.position], vec![start.velocity]),
-            limit: NONSENSE
-                * physics.largest_norm(start, basis.mean_norm() + norm(&start.coefficients)),
+            limit: NONSENSE * physics.largest_norm(start, basis),
             length: physics.domain_length,
             reach: physics.reach(start),
         };
@@ -138,7 +142,13 @@ impl ReducedPiston {
         self.next.traction = self.system.traction;
         if let Some(cause) = self.divergence(outcome) {
             let stable_step = self.stepper.is_explicit().then(|| self.stable_step());
-            return Err(ReducedError::Diverged { time: self.time, step: dt, stable_step, cause });
+            return Err(ReducedError::Diverged {
+                time: self.time,
+                step: dt,
+                stable_step,
+                projection: self.kind,
+                cause,
+            });
         }
         std::mem::swap(&mut self.now, &mut self.next);
         self.time += dt;
@@ -182,7 +192,7 @@ impl ReducedPiston {
             (0..POSITIONS).map(|k| low + (high - low) * (k as f64 + 0.5) / POSITIONS as f64);
         let at = |position| {
             y[width] = position;
-            stable_step(&mut self.system, &y)
+            stable_step(&mut self.system, &y, here)
         };
         inner.chain([here]).map(at).fold(f64::INFINITY, f64::min)
     }
@@ -232,22 +242,27 @@ impl ReducedPiston {
     }
 
     /// What is wrong with the next state, if anything.
-    fn divergence(&self, outcome: Result<(), StepUnderflow>) -> Option<Divergence> {
-        if let Err(StepUnderflow { tried }) = outcome {
-            return Some(Divergence::StepUnderflow { tried });
+    fn divergence(&self, outcome: Result<(), Divergence>) -> Option<Divergence> {
+        if let Err(cause) = outcome {
+            return Some(cause);
         }
         let State { y, rates, .. } = &self.next;
-        let (flow, body) = y.split_at(y.len() - 2);
-        let norm = norm(&flow[self.basis.frozen()..]).hypot(body[1]);
-        if !(norm.is_finite() && rates.iter().all(|r| r.is_finite())) {
+        let (norm, position) = (self.norm_of(y), y[y.len() - 2]);
+        if !(norm.is_finite() && position.is_finite() && rates.iter().all(|r| r.is_finite())) {
             Some(Divergence::NotFinite)
-        } else if !(body[0] > 0.0 && body[0] < self.length) {
-            Some(Divergence::Outside { position: body[0], length: self.length })
+        } else if !(position > 0.0 && position < self.length) {
+            Some(Divergence::Outside { position, length: self.length })
         } else if norm > self.limit {
             Some(Divergence::Speed { norm, limit: self.limit })
         } else {
             None
         }
+    }
+
+    /// Norm of the flow in L2, the mean apart, and of the block's velocity all over the basis' domain.
+    fn norm_of(&self, y: &[f64]) -> f64 {
+        let (flow, body) = y.split_at(y.len() - 2);
+        norm(&flow[self.basis.frozen()..]).hypot(body[1] * self.basis.extent().sqrt())
     }
 
     fn check_grid(&self, grid: &UniformGrid, found: usize) -> Result<(), ReducedError> {

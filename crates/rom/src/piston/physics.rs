@@ -1,4 +1,5 @@
 use crate::ReducedError;
+use crate::basis::{Basis, norm};
 use lumley_body::joint::Prismatic;
 
 /// The constants of the piston, paper (33)(34).
@@ -52,14 +53,10 @@ impl PistonPhysics {
     /// # Errors
     /// The first one that is not, with its value.
     pub fn validate(&self) -> Result<(), ReducedError> {
-        let Prismatic { mass, stiffness, damping, rest_length } = self.joint;
         ReducedError::check_positive("viscosity", self.viscosity, "m²/s")?;
         ReducedError::check_positive("domain_length", self.domain_length, "m")?;
-        ReducedError::check_positive("mass", mass, "kg")?;
         ReducedError::check_not_negative("force_factor", self.force_factor, "kg/m")?;
-        ReducedError::check_not_negative("stiffness", stiffness, "N/m")?;
-        ReducedError::check_not_negative("damping", damping, "N s/m")?;
-        ReducedError::check_not_negative("spring_length", rest_length, "m")
+        self.joint.check().map_err(ReducedError::Joint)
     }
 
     /// The block's acceleration X'' under spring, damper and the traction τ, in m/s².
@@ -79,14 +76,15 @@ impl PistonPhysics {
         (inside(rest_length - swing), inside(rest_length + swing))
     }
 
-    /// Largest norm of `(v, X')` that the energy of the start accounts for, a `flow` of that norm in L2
-    /// included: the fluid is nowhere faster than at the start or at the block.
-    pub(crate) fn largest_norm(&self, start: &PistonStart, flow: f64) -> f64 {
-        let joint = &self.joint;
-        let energy =
-            joint.energy(start.position, start.velocity) + 0.5 * self.force_factor * flow * flow;
+    /// Largest norm in L2 of `(v, X')` on the domain of `basis` that the energy of the start accounts
+    /// for: the fluid is nowhere faster than at the start or at the block.
+    pub(crate) fn largest_norm(&self, start: &PistonStart, basis: &Basis) -> f64 {
+        let (joint, extent) = (&self.joint, basis.extent());
+        let flow = basis.mean_norm() + norm(&start.coefficients);
+        let of_flow = 0.5 * self.force_factor * flow * flow * self.domain_length / extent;
+        let energy = joint.energy(start.position, start.velocity) + of_flow;
         let block = (2.0 * energy / joint.mass).sqrt();
-        flow + block * (1.0 + self.domain_length).sqrt()
+        flow + block * (2.0 * extent).sqrt()
     }
 }
 
@@ -119,5 +117,41 @@ impl PistonStart {
             return Err(ReducedError::Parameter { name, value, unit: "m/s", expected: "finite" });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use lumley_fem::UniformGrid;
+
+    /// The largest norm of the same piston when its lengths are counted in units of `1/c` m.
+    fn norms(c: f64) -> [f64; 2] {
+        let joint = Prismatic { mass: 0.5, stiffness: 39.5, damping: 0.1, rest_length: 0.95 * c };
+        let domain_length = 1.1 * c;
+        let physics =
+            PistonPhysics { viscosity: 0.2 * c * c, force_factor: 0.7 / c, domain_length, joint };
+        let constant = faer::Mat::from_fn(3, 1, |_, _| domain_length.sqrt().recip());
+        let grid = UniformGrid::line(0.0, domain_length, 3);
+        let fixed = Basis::on_grid(&grid, constant.as_ref(), None).expect("a constant");
+        let bubble = faer::mat![[0.0], [30_f64.sqrt() / 4.0], [0.0]];
+        let moving = Basis::on_reference(&[0.0, 0.5, 1.0], 2, bubble.as_ref(), None);
+        let start = |coefficient| PistonStart {
+            coefficients: vec![coefficient],
+            position: 0.9 * c,
+            velocity: 0.3 * c,
+        };
+        [
+            physics.largest_norm(&start(0.2 * c.powf(1.5)), &fixed),
+            physics.largest_norm(&start(0.2 * c), &moving.expect("homogeneous")),
+        ]
+    }
+
+    /// A norm in m^(3/2)/s on the grid, in m/s in the reference frame, whatever the unit of length.
+    #[test]
+    fn largest_norm_knows_no_unit() {
+        let ([grid, reference], [grid_mm, reference_mm]) = (norms(1.0), norms(1000.0));
+        assert!((grid_mm / (grid * 1000_f64.powf(1.5)) - 1.0).abs() < 1e-12, "{grid} {grid_mm}");
+        assert!((reference_mm / (reference * 1e3) - 1.0).abs() < 1e-12, "{reference}");
     }
 }

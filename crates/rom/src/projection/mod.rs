@@ -67,6 +67,12 @@ impl ProjectionKind {
         }
     }
 
+    /// Whether its modes live in the reference frame ξ = x/X of the fluid, made by
+    /// [`Basis::on_reference`], and not on a fixed grid.
+    pub fn reference_frame(&self) -> bool {
+        matches!(self, Self::Mapped {})
+    }
+
     pub(crate) fn validate(&self) -> Result<(), ReducedError> {
         match self {
             Self::Multiplier(c) => ReducedError::check_positive("beta", c.beta, "1/s"),

@@ -3,6 +3,8 @@ use crate::ReducedError;
 use crate::basis::Basis;
 use crate::interface::Interfacial;
 
+/// How far X may be from a node, over its distance from 0, to be taken for the node.
+const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 /// Largest memory of the tables, in bytes.
 const LIMIT: usize = 1 << 30;
 
@@ -31,7 +33,8 @@ pub(crate) struct PrefixTables {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cut {
     cell: usize,
-    /// Part of the cell that is fluid, in (0, 1].
+    /// Part of the cell that is fluid: in (0, 1] while X is inside of the grid, beyond that where it
+    /// has left.
     fraction: f64,
     /// `v_N` at the left node, in m/s.
     left: f64,
@@ -54,9 +57,9 @@ impl PrefixTables {
             cells,
             spacing: basis.nodes()[cells] / cells as f64,
             values: (0..nodes).flat_map(|k| basis.row(k)).copied().collect(),
-            integral: vec![0.0; width],
-            dissipation: vec![0.0; width * width],
-            convection: vec![0.0; entry_count(width)],
+            integral: zero_row(nodes, width),
+            dissipation: zero_row(nodes, width * width),
+            convection: zero_row(nodes, entry_count(width)),
         };
         for cell in 0..cells {
             tables.append(cell);
@@ -139,10 +142,13 @@ impl PrefixTables {
     }
 
     /// The cell of `x` and the place in it; a node belongs to the cell on its left, where the fluid
-    /// is. Outside of the grid the end cells go on: the caller notices that X has left the domain.
+    /// is, even where round-off puts X beyond it. Outside of the grid the end cells go on: the caller
+    /// notices that X has left the domain.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped first")]
     fn locate(&self, x: f64) -> (usize, f64) {
         let s = x / self.spacing;
+        let node = s.round();
+        let s = if (s - node).abs() <= ROUND_OFF * node { node } else { s };
         let cell = (s.ceil() - 1.0).clamp(0.0, (self.cells - 1) as f64) as usize;
         (cell, s - cell as f64)
     }
@@ -151,6 +157,13 @@ impl PrefixTables {
 /// Entries of `node` in a table of `width` numbers a node.
 fn row(table: &[f64], node: usize, width: usize) -> &[f64] {
     &table[node * width..][..width]
+}
+
+/// A table with room for all nodes that holds the zeros of the first.
+fn zero_row(nodes: usize, width: usize) -> Vec<f64> {
+    let mut table = Vec::with_capacity(nodes * width);
+    table.resize(width, 0.0);
+    table
 }
 
 /// Appends to a prefix table its last entries plus `increments`.

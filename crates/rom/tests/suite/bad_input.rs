@@ -30,7 +30,7 @@ fn unphysical_constants_are_named() {
         ("mass is inf kg", |p| p.joint.mass = f64::INFINITY),
         ("stiffness is -3 N/m", |p| p.joint.stiffness = -3.0),
         ("damping is NaN N s/m", |p| p.joint.damping = f64::NAN),
-        ("spring_length is NaN m", |p| p.joint.rest_length = f64::NAN),
+        ("rest length is NaN m", |p| p.joint.rest_length = f64::NAN),
     ];
     for (expected, change) in cases {
         let mut physics = physics(1.0);
@@ -38,6 +38,14 @@ fn unphysical_constants_are_named() {
         let text = refusal(build(&physics, PENALTY, RK4, &basis_for(PENALTY)));
         assert!(text.starts_with(expected), "{text}");
     }
+}
+
+/// A spring may be slack behind the wall.
+#[test]
+fn a_negative_rest_length_is_physical() -> Result<(), ReducedError> {
+    let mut physics = physics(1.0);
+    physics.joint.rest_length = -0.1;
+    build(&physics, PENALTY, RK4, &basis_for(PENALTY)).map(drop)
 }
 
 #[test]
@@ -56,8 +64,12 @@ fn parameters_out_of_range_are_named() {
         assert!(text.starts_with(expected), "{text}");
     }
     let integrator = Integrator::Rosenbrock(Rosenbrock { tolerance: 0.0 });
-    let text = refusal(build(&physics(1.0), PENALTY, integrator, &basis_for(PENALTY)));
-    assert!(text.contains("integrator.tolerance is 0"), "{text}");
+    for text in [
+        refusal(integrator.validate()),
+        refusal(build(&physics(1.0), PENALTY, integrator, &basis_for(PENALTY))),
+    ] {
+        assert!(text.contains("integrator.tolerance is 0"), "{text}");
+    }
 }
 
 #[test]
@@ -130,6 +142,18 @@ fn bad_reference_frames_are_refused() {
     assert!(refuse(&[0.0, 0.25, 0.5, 0.75, 1.1], 1).contains("node 4"));
     assert!(refuse(&[0.0, 0.25, f64::NAN, 0.75, 1.0], 1).contains("node 2"));
     assert!(refuse(&even, 1).contains("a mode is 1e0 at the end 0"));
+}
+
+/// What round-off is depends on how large the field is.
+#[test]
+fn means_vanish_at_the_ends_relative_to_their_size() {
+    let modes = Mat::from_fn(3, 1, |k, _| if k == 1 { 30_f64.sqrt() / 4.0 } else { 0.0 });
+    let with = |mean: [f64; 3]| {
+        Basis::on_reference(&[0.0, 0.5, 1.0], 2, modes.as_ref(), Some(&mean)).map(drop)
+    };
+    assert_eq!(with([0.0, 1e4, 1e-7]), Ok(()));
+    assert_eq!(with([0.0; 3]), Ok(()));
+    assert!(refusal(with([0.0, 1e-9, 5e-9])).contains("the mean is 5e-9 at the end 1"));
 }
 
 #[test]

@@ -39,6 +39,15 @@ fn grid_basis(nodes: usize, modes: usize) -> Basis {
     Basis::on_grid(&grid, modes.as_ref(), None).expect("orthonormal modes")
 }
 
+/// Four modes of the grid and a mean.
+fn centred_basis() -> Basis {
+    let nodes = manufactured::nodes(LENGTH, 61);
+    let modes = manufactured::grid_modes(&nodes, 4);
+    let mean: Vec<f64> = nodes.iter().map(|x| 0.1 * x).collect();
+    let grid = UniformGrid::line(0.0, LENGTH, 61);
+    Basis::on_grid(&grid, modes.as_ref(), Some(&mean)).expect("orthonormal modes")
+}
+
 fn reference_basis(modes: usize) -> Basis {
     let nodes = manufactured::nodes(1.0, 41);
     let modes = manufactured::reference_modes(&nodes, 2, modes);

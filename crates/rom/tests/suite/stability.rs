@@ -97,6 +97,36 @@ fn leaving_the_domain_is_an_error() -> Result<(), ReducedError> {
     Ok(())
 }
 
+/// The advice fits what was seen, and never is to take what one has.
+#[test]
+fn remedies_follow_the_cause() {
+    let outside = Divergence::Outside { position: 1.2, length: LENGTH };
+    let speed = Divergence::Speed { norm: 9.0, limit: 2.0 };
+    let underflow = Divergence::StepUnderflow { tried: 1e-14 };
+    let substeps = Divergence::Substeps { count: 1_000_000, left: 1e-3 };
+    let unstable = "model itself is unstable";
+    for (cause, stable_step, expected) in [
+        (outside, Some(1.0), "take a longer domain or a slower start"),
+        (outside, None, "take a longer domain or a slower start"),
+        (outside, Some(1e-3), "exceeds the stable step"),
+        (speed, Some(1e-3), "exceeds the stable step"),
+        (speed, Some(1.0), unstable),
+        (speed, None, unstable),
+        (Divergence::NotFinite, None, unstable),
+        (underflow, None, "take a larger tolerance; if that does not help"),
+        (substeps, None, "take a larger tolerance or a shorter step"),
+    ] {
+        for projection in [MAPPED, PENALTY] {
+            let (time, step) = (0.5, 0.01);
+            let text = ReducedError::Diverged { time, step, stable_step, projection, cause };
+            let text = text.to_string();
+            assert!(text.contains(expected), "{text}");
+            assert!(text.contains(&cause.to_string()), "{text}");
+            assert!(projection != MAPPED || !text.contains("`mapped`"), "{text}");
+        }
+    }
+}
+
 /// The L-stable integrator takes steps far beyond the stable one of RK4.
 #[test]
 fn rosenbrock_is_not_bound_by_the_stable_step() -> Result<(), ReducedError> {

@@ -112,6 +112,30 @@ fn a_node_belongs_to_the_cell_at_its_left() {
     assert!((at.shear - slope).abs() < 1e-12, "{} and {slope}", at.shear);
 }
 
+/// Round-off puts many a node a little beyond its number of spacings.
+#[test]
+fn every_node_of_any_grid_belongs_to_the_cell_at_its_left() {
+    for (length, nodes) in [(1.1, 401), (1.1, 41), (0.7, 1001), (3.3e-3, 127), (977.0, 3)] {
+        let grid = UniformGrid::line(0.0, length, nodes);
+        let constant = faer::Mat::from_fn(nodes, 1, |_, _| length.sqrt().recip());
+        let basis = Basis::on_grid(&grid, constant.as_ref(), None).expect("a constant");
+        let tables = PrefixTables::new(&basis).expect("small");
+        for node in 1..nodes {
+            for x in [grid.point(node)[0], node as f64 * grid.spacing()[0]] {
+                assert_eq!(
+                    tables.locate(x),
+                    (node - 1, 1.0),
+                    "node {node} of {nodes}, L = {length}"
+                );
+            }
+            let (cell, fraction) = tables.locate((node as f64 - 0.5) * grid.spacing()[0]);
+            assert!(cell == node - 1 && (fraction - 0.5).abs() < 1e-9, "{cell} {fraction}");
+        }
+        let beyond = grid.point(1)[0] * (1.0 + 1e-14);
+        assert_eq!(tables.locate(beyond).0, 1, "a true position beyond a node is left alone");
+    }
+}
+
 #[test]
 fn tables_beyond_memory_are_refused() {
     let grid = UniformGrid::line(0.0, LENGTH, 2001);

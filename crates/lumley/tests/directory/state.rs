@@ -1,0 +1,47 @@
+//! Whether a directory is a run, and whether that run is whole.
+
+use crate::{Desk, NEW, RESUME};
+use lumley::directory::completed;
+
+#[test]
+fn a_complete_run_is_complete() {
+    let desk = Desk::new();
+    desk.run("run", "whole", NEW);
+    assert_eq!(completed(&desk.path("run")).expect("complete"), desk.path("run"));
+}
+
+/// The manifest is there from the first moment of a run.
+#[test]
+fn an_unfinished_run_is_not_complete() {
+    let desk = Desk::new();
+    desk.manifest("run.partial", false);
+    let answer = completed(&desk.path("run.partial")).expect_err("unfinished").to_string();
+    assert!(answer.contains("is an unfinished run"), "{answer}");
+    assert!(answer.contains("lumley run --resume"), "{answer}");
+}
+
+#[test]
+fn what_is_no_run_is_not_complete() {
+    let desk = Desk::new();
+    desk.write("app/manifest.json", b"{\"name\": \"app\"}");
+    desk.write("file", b"");
+    for (name, words) in [
+        ("nothing", "no run of lumley here"),
+        ("file", "no run of lumley here"),
+        ("", "no run of lumley here"),
+        ("app", "not written by lumley"),
+    ] {
+        let answer = completed(&desk.path(name)).expect_err("no run").to_string();
+        assert!(answer.contains(words), "{name}: {answer}");
+    }
+}
+
+#[test]
+fn a_target_without_a_name_is_refused_at_once() {
+    for path in [".", "..", "/"] {
+        let answer = crate::refused(path.as_ref(), NEW);
+        assert!(answer.contains("name of a directory"), "{path}: {answer}");
+    }
+    let desk = Desk::new();
+    assert!(desk.refused("run", RESUME).contains("no unfinished run"));
+}
