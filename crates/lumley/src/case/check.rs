@@ -170,6 +170,8 @@ fn schedule_of_models(ask: &Ask, file: &CaseFile) -> Result<Schedule, CaseError>
 }
 
 fn models(ask: &Ask, file: &CaseFile) -> Result<(), CaseError> {
+    let integrator = file.rom.integrator.validate();
+    integrator.map_err(|e| ask.refuse("rom.integrator", "out of range", &e.to_string()))?;
     for (k, model) in file.rom.models.iter().enumerate() {
         model.validate().map_err(|error| match error {
             ReducedError::Parameter { name, value, unit, expected } => {

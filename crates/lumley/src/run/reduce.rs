@@ -16,7 +16,7 @@ use lumley_rom::{Integrator, ModelChoice, ProjectionKind, ReducedError, ReducedP
 use std::path::Path;
 
 /// Steps over which the time of one is measured.
-const TIMED_STEPS: usize = 2000;
+const TIMED_STEPS: usize = 500;
 
 /// One reduced model with one number of modes, after its run.
 struct Attempt {
