@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// A file that takes its name, and the place of an older file of that name, only when it is complete.
 ///
 /// It is written beside its target, brought to the disk and renamed. Dropped before
-/// [`commit`](Self::commit), it leaves nothing behind; killed, a file `.NAME.*.tmp`.
+/// [`commit`](Self::commit), it leaves nothing behind; killed, a file `.NAME.PID-COUNT.tmp`.
 ///
 /// ```
 /// use lumley::format::atomic::AtomicFile;
@@ -35,9 +35,16 @@ impl AtomicFile {
     /// # Errors
     /// The system's, for example that the folder does not exist or may not be written.
     pub fn create(target: &Path) -> io::Result<Self> {
-        let temporary = temporary(target)?;
-        let file = File::create_new(&temporary)?;
-        Ok(Self { file, temporary, target: target.to_owned() })
+        loop {
+            let temporary = temporary(target)?;
+            match File::create_new(&temporary) {
+                // Left by a killed process that had the number of this one, as in containers.
+                Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
+                created => {
+                    return Ok(Self { file: created?, temporary, target: target.to_owned() });
+                }
+            }
+        }
     }
 
     /// Brings the content to the disk and gives it its name.
@@ -109,10 +116,13 @@ pub(crate) fn sync_entry(path: &Path) {
 /// Whether a file of this name was left by a writer that was killed.
 pub fn is_temporary(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    name.starts_with('.') && name.ends_with(".tmp")
+    let inner = name.strip_prefix('.').and_then(|name| name.strip_suffix(".tmp"));
+    let unique = inner.and_then(|inner| inner.rsplit_once('.')).filter(|(of, _)| !of.is_empty());
+    let numbers = unique.and_then(|(_, unique)| unique.split_once('-'));
+    numbers.is_some_and(|(pid, count)| pid.parse::<u32>().is_ok() && count.parse::<u64>().is_ok())
 }
 
-/// A name beside `target` that no other writer of this or another process uses.
+/// A name beside `target` that no other writer of this or another process uses now.
 fn temporary(target: &Path) -> io::Result<PathBuf> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let name = target.file_name().ok_or(io::ErrorKind::InvalidFilename)?;

@@ -54,7 +54,7 @@ impl Desk {
 
     /// The manifest of a run in `name`.
     fn manifest(&self, name: &str, complete: bool) {
-        let manifest = Manifest { complete, ..Manifest::new("piston", b"") };
+        let manifest = Manifest { complete, ..Manifest::new("piston", "") };
         self.write(&format!("{name}/{MANIFEST}"), manifest.to_json().as_bytes());
     }
 

@@ -2,6 +2,8 @@
 
 use crate::{Desk, NEW, RESUME};
 use lumley::directory::completed;
+use lumley::manifest::{MANIFEST, Manifest};
+use std::fs;
 
 #[test]
 fn a_complete_run_is_complete() {
@@ -34,6 +36,28 @@ fn what_is_no_run_is_not_complete() {
         let answer = completed(&desk.path(name)).expect_err("no run").to_string();
         assert!(answer.contains(words), "{name}: {answer}");
     }
+}
+
+/// Each kind of damage is told apart, and names the file.
+#[test]
+fn a_manifest_is_read_or_says_why_not() {
+    let desk = Desk::new();
+    desk.manifest("run", true);
+    assert!(Manifest::read(&desk.path("run")).expect("a manifest").complete);
+    for (content, words) in [
+        ("{\"program\": \"lumley\"", "is not JSON"),
+        ("{\"program\": \"npm\"}", "not written by lumley"),
+        ("{\"program\": \"lumley\"}", "missing field"),
+    ] {
+        let path = desk.write("run/manifest.json", content.as_bytes());
+        let answer = Manifest::read(&desk.path("run")).expect_err(content).to_string();
+        assert!(answer.contains(words), "{content}: {answer}");
+        assert!(answer.contains(&path.display().to_string()), "{answer}");
+    }
+    fs::remove_file(desk.path("run/manifest.json")).expect("removed");
+    fs::create_dir(desk.path("run/manifest.json")).expect("a folder");
+    let answer = Manifest::read(&desk.path("run")).expect_err("a folder").to_string();
+    assert!(answer.contains("missing") && answer.contains(MANIFEST), "{answer}");
 }
 
 #[test]
