@@ -10,7 +10,7 @@
 //! let text = lumley::cases::find("piston").expect("it comes with lumley").text;
 //! let case = Case::parse("piston/case.toml".as_ref(), text, true, &[])?;
 //! let folder = tempfile::tempdir()?;
-//! let task = run::Task::new(folder.path().join("piston"), Existing::default());
+//! let task = run::Task::new(&folder.path().join("piston"), Existing::default());
 //! let (directory, summary) = run::run(&case, &task, &mut Progress::silent())?;
 //! assert!(directory.join("report.html").exists());
 //! assert!(summary.pod.cumulative_percent[5] > 99.99);

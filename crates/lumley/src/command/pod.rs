@@ -82,7 +82,7 @@ impl Arguments {
         let name = format!("{}-pod", stem.to_string_lossy());
         let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&name, false));
-        let mut task = Task::new(target, self.output.existing(false));
+        let mut task = Task::new(&target, self.output.existing(false));
         task.threads = self.threads.map_or(task.threads, usize::from);
         let (directory, summary) = decompose_snapshots(&input, &task, progress)?;
         if self.output.json {

@@ -30,7 +30,7 @@ impl Arguments {
         let name = source.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&format!("{name}-rom"), false));
-        let mut task = Task::new(target, self.output.existing(false));
+        let mut task = Task::new(&target, self.output.existing(false));
         task.threads = self.threads.map_or(task.threads, usize::from);
         let (directory, summary) = run::rerun(source, &self.set, self.compare, &task, progress)?;
         if self.output.json {

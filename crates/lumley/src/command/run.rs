@@ -38,7 +38,7 @@ impl Arguments {
         let case = Case::load(&self.case, self.quick, &self.set)?;
         let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&case.name, self.resume));
-        let mut task = Task::new(target, self.output.existing(self.resume));
+        let mut task = Task::new(&target, self.output.existing(self.resume));
         task.threads = self.threads.map_or(task.threads, usize::from);
         task.checkpoint = Duration::from_secs(self.checkpoint);
         let (directory, summary) = run::run(&case, &task, progress)?;

@@ -31,6 +31,12 @@ pub enum DirectoryError {
         /// The directory.
         path: PathBuf,
     },
+    /// A run that is to be replaced holds something that lumley did not make.
+    #[error("{} is not lumley's, and would be lost with the run it stands in\n  help: move it away, or choose another directory with -o", path.display())]
+    Foreign {
+        /// The file or folder.
+        path: PathBuf,
+    },
     /// A symbolic link stands there.
     #[error("{} is a symbolic link\n  help: give the directory itself with -o, or remove the link", path.display())]
     Link {

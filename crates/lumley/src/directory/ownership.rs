@@ -2,7 +2,7 @@
 
 use super::{DirectoryError, Existing};
 use crate::format::atomic;
-use crate::manifest::{Manifest, ManifestError};
+use crate::manifest::{MANIFEST, Manifest, ManifestError};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub(super) fn check_target(
     } else if !is_run(target) {
         Err(DirectoryError::NotEmpty { path })
     } else if existing.replace {
-        Ok(())
+        check_only_ours(target)
     } else if !partial.is_symlink() && is_ours(partial) {
         Err(DirectoryError::Replacement { path, partial: partial.to_owned() })
     } else {
@@ -46,6 +46,34 @@ pub(super) fn check_partial(partial: &Path, existing: Existing) -> Result<(), Di
         Ok(())
     } else {
         Err(DirectoryError::Unfinished { path })
+    }
+}
+
+/// What a run has at its top. Anything else in it is somebody's own, and is not removed with the run.
+const OURS: [&str; 12] = [
+    MANIFEST,
+    LOCK,
+    "basis",
+    "case.toml",
+    "checkpoint",
+    "figures",
+    "initial_flow.csv",
+    "pod.npz",
+    "record",
+    "report.html",
+    "rom",
+    "summary.json",
+];
+
+fn check_only_ours(run: &Path) -> Result<(), DirectoryError> {
+    let found = entries(run).map_err(DirectoryError::io("read", run))?;
+    let is_ours = |path: &PathBuf| {
+        atomic::is_temporary(path)
+            || OURS.iter().any(|name| path.file_name() == Some(name.as_ref()))
+    };
+    match found.into_iter().find(|path| !is_ours(path)) {
+        Some(path) => Err(DirectoryError::Foreign { path }),
+        None => Ok(()),
     }
 }
 

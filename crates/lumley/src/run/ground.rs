@@ -128,6 +128,9 @@ impl<'a> Ground<'a> {
 }
 
 /// L2 of a field of several components on a grid.
+///
+/// # Panics
+/// Never: a mass matrix is positive definite.
 pub fn grid_product(grid: &UniformGrid, components: usize) -> SparseSpd {
     let (n, entries) = (grid.len(), grid.mass_matrix());
     let block = |c: usize| entries.iter().map(move |&(i, j, m)| (c * n + i, c * n + j, m));

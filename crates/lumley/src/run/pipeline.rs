@@ -12,7 +12,7 @@ use crate::record::Record;
 use crate::summary::{FullOrder, Projection, SUMMARY, Snapshots, Summary};
 use lumley_fom::InitialFlow;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Name of the resolved case file in a run directory.
@@ -24,7 +24,7 @@ const INITIAL_FLOW: &str = "initial_flow.csv";
 ///
 /// ```
 /// use lumley::{directory::Existing, run::Task};
-/// let task = Task::new("runs/piston".into(), Existing::default());
+/// let task = Task::new("runs/piston".as_ref(), Existing::default());
 /// assert!(task.threads >= 1);
 /// ```
 #[derive(Debug, Clone)]
@@ -43,7 +43,7 @@ pub struct Task {
 
 impl Task {
     /// A run into `target` with all threads of this machine and a checkpoint every five seconds.
-    pub fn new(target: PathBuf, existing: Existing) -> Self {
+    pub fn new(target: &Path, existing: Existing) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let command: Vec<String> = std::env::args().skip(1).collect();
         let command = format!("lumley {}", command.join(" "));
@@ -93,11 +93,14 @@ pub(super) fn begin(case: &Case, task: &Task, place: &Workplace) -> Result<Manif
     let mut manifest = Manifest::new(&case.name, &task.command);
     manifest.inputs.push(Input::new(CASE, resolved.as_bytes()));
     if let Some(table) = &table {
-        place.write(INITIAL_FLOW, table.as_bytes())?;
         manifest.inputs.push(Input::new(INITIAL_FLOW, table.as_bytes()));
     }
-    place.write(CASE, resolved.as_bytes())?;
+    // First of all: by its manifest a directory is known as lumley's.
     place.write(MANIFEST, manifest.to_json().as_bytes())?;
+    if let Some(table) = &table {
+        place.write(INITIAL_FLOW, table.as_bytes())?;
+    }
+    place.write(CASE, resolved.as_bytes())?;
     Ok(manifest)
 }
 

@@ -55,7 +55,7 @@ impl<'a> Bench<'a> {
     }
 
     fn task(&self, name: &str) -> Task {
-        Task::new(self.folder.join(name), Existing { replace: true, resume: false })
+        Task::new(&self.folder.join(name), Existing { replace: true, resume: false })
     }
 
     /// The lines that take longer, for case number `case` with its `settings`, whose run stands in `name`.

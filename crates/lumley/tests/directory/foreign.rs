@@ -1,6 +1,7 @@
 //! Files that lumley did not make.
 
 use crate::{BOTH, Desk, FORCE, LOCK, NEW, RESUME};
+use lumley::directory::Workplace;
 
 /// What stood beside a run has nothing to do with replacing it, whatever its name.
 #[test]
@@ -9,7 +10,7 @@ fn a_neighbour_called_old_survives_a_replacement() {
     desk.write("run.old/chapter.tex", b"years of work");
     desk.run("run", "first", NEW);
     desk.run("run", "second", FORCE);
-    assert_eq!(desk.read("run/word"), "second");
+    assert_eq!(desk.read("run/summary.json"), "second");
     assert_eq!(desk.read("run.old/chapter.tex"), "years of work");
     assert_eq!(desk.names(""), ["run", "run.old"]);
 }
@@ -36,7 +37,7 @@ fn a_manifest_of_another_version_is_ours() {
     let desk = Desk::new();
     desk.write("run/manifest.json", b"{\"program\": \"lumley\", \"version\": \"9\"}");
     desk.run("run", "new", FORCE);
-    assert_eq!(desk.names("run"), ["manifest.json", "word"]);
+    assert_eq!(desk.names("run"), ["manifest.json", "summary.json"]);
 }
 
 /// A lock alone does not make the files beside it ours.
@@ -65,5 +66,16 @@ fn a_partial_directory_with_nothing_but_its_lock_is_ours() {
     desk.write("run.partial/.case.toml.71-0.tmp", b"");
     assert!(desk.refused("run", NEW).contains("unfinished run"));
     desk.run("run", "new", FORCE);
-    assert_eq!(desk.names("run"), ["manifest.json", "word"]);
+    assert_eq!(desk.names("run"), ["manifest.json", "summary.json"]);
+}
+
+/// Notes that somebody put into a run are not removed with it.
+#[test]
+fn notes_inside_of_a_run_are_kept() {
+    let desk = Desk::new();
+    desk.manifest("run", true);
+    desk.write("run/notes.txt", b"years of work");
+    let error = Workplace::claim(&desk.path("run"), FORCE).expect_err("there are notes");
+    assert!(error.to_string().contains("notes.txt"), "{error}");
+    assert!(desk.path("run/notes.txt").exists() && !desk.path("run.partial").exists());
 }

@@ -49,8 +49,8 @@ fn a_name_to_move_aside_to_is_always_free() {
     let desk = Desk::new();
     desk.run("run", "old", NEW);
     let stale = format!(".run.replaced-{}", std::process::id());
-    desk.write(&format!("{stale}/word"), b"older");
+    desk.write(&format!("{stale}/summary.json"), b"older");
     desk.run("run", "new", FORCE);
-    assert_eq!(desk.read(&format!("{stale}/word")), "older");
+    assert_eq!(desk.read(&format!("{stale}/summary.json")), "older");
     assert_eq!(desk.names(""), [stale.as_str(), "run"]);
 }

@@ -21,7 +21,7 @@ fn a_link_is_no_place_for_a_run() {
                     assert!(answer.contains(words), "{name} -> {pointed_at}: {answer}");
                 }
             }
-            assert_eq!(desk.names("kept"), ["manifest.json", "word"]);
+            assert_eq!(desk.names("kept"), ["manifest.json", "summary.json"]);
             assert!(desk.names("empty").is_empty());
             assert!(desk.path(name).is_symlink() && !desk.path("nothing").exists());
         }

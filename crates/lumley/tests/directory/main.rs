@@ -66,7 +66,7 @@ impl Desk {
     fn run(&self, name: &str, word: &str, existing: Existing) {
         let place = self.claim(name, existing);
         self.manifest(&format!("{name}.partial"), true);
-        place.write("word", word.as_bytes()).expect("written");
+        place.write("summary.json", word.as_bytes()).expect("written");
         place.finish().expect("finished");
     }
 

@@ -20,7 +20,7 @@ fn an_interrupted_replacement_says_how_to_go_on() {
     assert_eq!(desk.read("run.partial/checkpoint"), "hours");
     place.finish().expect("finished");
     assert_eq!(desk.read("run/checkpoint"), "hours");
-    assert!(!desk.path("run/word").exists());
+    assert!(!desk.path("run/summary.json").exists());
     assert_eq!(desk.names(""), ["run"]);
 }
 
@@ -31,8 +31,8 @@ fn force_alone_begins_again() {
     desk.manifest("run.partial", false);
     desk.write("run.partial/checkpoint", b"hours");
     desk.run("run", "new", FORCE);
-    assert_eq!(desk.names("run"), ["manifest.json", "word"]);
-    assert_eq!(desk.read("run/word"), "new");
+    assert_eq!(desk.names("run"), ["manifest.json", "summary.json"]);
+    assert_eq!(desk.read("run/summary.json"), "new");
 }
 
 /// Here the partial directory is gone, so that it cannot take its name.
@@ -44,7 +44,7 @@ fn the_old_run_comes_back_when_the_new_one_cannot_take_its_place() {
     fs::remove_dir_all(desk.path("run.partial")).expect("removed");
     let answer = place.finish().expect_err("nothing to rename").to_string();
     assert!(answer.contains("run.partial"), "{answer}");
-    assert_eq!(desk.read("run/word"), "old");
+    assert_eq!(desk.read("run/summary.json"), "old");
     assert_eq!(desk.names(""), ["run"]);
 }
 
@@ -77,7 +77,7 @@ fn an_empty_directory_is_taken_and_no_lock_is_left() {
     let desk = Desk::new();
     fs::create_dir(desk.path("run")).expect("a folder");
     desk.run("run", "new", NEW);
-    assert_eq!(desk.names("run"), ["manifest.json", "word"]);
+    assert_eq!(desk.names("run"), ["manifest.json", "summary.json"]);
     assert_eq!(desk.names(""), ["run"]);
 }
 
