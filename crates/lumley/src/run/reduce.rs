@@ -51,31 +51,39 @@ pub(super) fn reduce(
         Some(_) => Ok(None),
     });
     let timed: Vec<Option<f64>> = timed.collect::<Result<_, _>>()?;
-    let mut reduced: Vec<Reduced> = Vec::new();
-    for (k, (choice, label)) in ground.case.models.iter().zip(&labels).enumerate() {
-        let projection = choice.projection.name().to_owned();
-        let shown = Some(ground.shown_of(choice));
-        let mut entry = Reduced {
-            projection,
-            beta: beta(choice),
-            sigma: sigma(choice),
-            closure: choice.closure.name().to_owned(),
-            reference_frame: is_mapped(choice),
-            label: label.clone(),
-            shown,
-            ..Reduced::default()
-        };
-        let of_model = jobs.iter().zip(&results).zip(&timed).filter(|((job, _), _)| job.0 == k);
-        for ((&(_, modes), attempt), step_us) in of_model {
+    let of_model = |k: usize| {
+        let choice = &ground.case.models[k];
+        let mut entry = entry(choice, &labels[k], ground.shown_of(choice));
+        let mine = jobs.iter().zip(&results).zip(&timed).filter(|((job, _), _)| job.0 == k);
+        for ((&(_, modes), attempt), step_us) in mine {
             entry.modes.push(modes);
             entry.res_percent.push(attempt.res_percent);
             entry.step_us.push(*step_us);
             entry.failure.push(attempt.failure.clone());
             entry.stable_step.push(attempt.stable_step);
         }
-        reduced.push(entry);
+        entry
+    };
+    Ok((0..labels.len()).map(of_model).collect())
+}
+
+/// What the summary says of a model before any of its runs.
+fn entry(choice: &ModelChoice, label: &str, shown: usize) -> Reduced {
+    let (beta, sigma) = match choice.projection {
+        ProjectionKind::Multiplier(multiplier) => (Some(multiplier.beta), None),
+        ProjectionKind::Penalty(penalty) => (None, Some(penalty.sigma)),
+        _ => (None, None),
+    };
+    Reduced {
+        projection: choice.projection.name().to_owned(),
+        beta,
+        sigma,
+        closure: choice.closure.name().to_owned(),
+        reference_frame: is_mapped(choice),
+        label: label.to_owned(),
+        shown: Some(shown),
+        ..Reduced::default()
     }
-    Ok(reduced)
 }
 
 impl Ground<'_> {
@@ -156,20 +164,6 @@ impl Ground<'_> {
         let mut model = self.build(choice, modes)?;
         let work = advance(&mut model, &Schedule { intervals, ..*schedule }, 0, &mut Nobody)?;
         Ok(work.step_us())
-    }
-}
-
-fn beta(choice: &ModelChoice) -> Option<f64> {
-    match choice.projection {
-        ProjectionKind::Multiplier(multiplier) => Some(multiplier.beta),
-        _ => None,
-    }
-}
-
-fn sigma(choice: &ModelChoice) -> Option<f64> {
-    match choice.projection {
-        ProjectionKind::Penalty(penalty) => Some(penalty.sigma),
-        _ => None,
     }
 }
 

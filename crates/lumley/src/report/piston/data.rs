@@ -242,7 +242,7 @@ impl Variant {
 ///
 /// let model = |step_us| Variant { steps: 200, step_us, ..Variant::default() };
 /// let equal = EqualAccuracy { reduced: model(0.5), full: model(5.0) };
-/// assert_eq!(equal.ratio(), 10.0);
+/// assert!((equal.ratio() - 10.0).abs() < 1e-12);
 /// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct EqualAccuracy {
