@@ -1,29 +1,20 @@
-use super::say;
+use super::{CaseArguments, say};
 use crate::Error;
-use crate::case::Case;
 use crate::run::full_order;
 use clap::Args;
-use std::path::PathBuf;
 
 /// Time of a full-order step for each unknown, in s: what the benchmark shows on one core.
 const STEP_PER_UNKNOWN: f64 = 5e-8;
 
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// The case file
-    #[arg(value_name = "CASE.toml")]
-    case: PathBuf,
-    /// Set a key of the case, such as piston.mass=0.6; may be given again and again
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Lay the case's [quick] table over it
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    case: CaseArguments,
 }
 
 impl Arguments {
     pub(super) fn execute(&self) -> Result<(), Error> {
-        let case = Case::load(&self.case, self.quick, &self.set)?;
+        let case = self.case.load()?;
         full_order(&case)?;
         let schedule = &case.schedule;
         let unknowns = case.cells * case.degree + 1;

@@ -10,6 +10,7 @@ mod run;
 mod verify;
 
 use crate::Error;
+use crate::case::{Case, CaseError};
 use crate::directory::Existing;
 use crate::progress::Progress;
 use clap::{Args, Parser, Subcommand};
@@ -43,6 +44,26 @@ enum Command {
     Cases(cases::Arguments),
     /// Compute the reference numbers and compare: exit code 1 when one is missed
     Verify(verify::Arguments),
+}
+
+/// A case file and what is laid over it.
+#[derive(Args)]
+struct CaseArguments {
+    /// The case file
+    #[arg(value_name = "CASE.toml")]
+    case: PathBuf,
+    /// Set a key of the case, such as piston.mass=0.6; may be given again and again
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Lay the case's [quick] table over it: a coarse run for a first look
+    #[arg(long)]
+    quick: bool,
+}
+
+impl CaseArguments {
+    fn load(&self) -> Result<Case, CaseError> {
+        Case::load(&self.case, self.quick, &self.set)
+    }
 }
 
 /// Where a command writes, and what it may replace.

@@ -1,25 +1,16 @@
-use super::{Output, say};
+use super::{CaseArguments, Output, say};
 use crate::Error;
-use crate::case::Case;
 use crate::directory::default_target;
 use crate::progress::Progress;
 use crate::run::{self, Task};
 use crate::summary::Summary;
 use clap::Args;
-use std::path::PathBuf;
 use std::time::Duration;
 
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// The case file
-    #[arg(value_name = "CASE.toml")]
-    case: PathBuf,
-    /// Set a key of the case, such as piston.mass=0.6; may be given again and again
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
-    /// Lay the case's [quick] table over it: a coarse run for a first look
-    #[arg(long)]
-    quick: bool,
+    #[command(flatten)]
+    case: CaseArguments,
     /// Continue an unfinished run
     #[arg(long)]
     resume: bool,
@@ -35,7 +26,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
-        let case = Case::load(&self.case, self.quick, &self.set)?;
+        let case = self.case.load()?;
         let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&case.name, self.resume));
         let mut task = Task::new(&target, self.output.existing(self.resume));
