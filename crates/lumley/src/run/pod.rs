@@ -53,6 +53,8 @@ pub struct PodInput {
 /// Snapshots, their inner product and the words for it.
 struct Opened {
     snapshots: Box<dyn SnapshotSource>,
+    /// Whether the times are the snapshots' own and not their numbers.
+    timed: bool,
     /// Weights of the snapshots, where their times are given and unequal.
     time_weights: Option<Vec<f64>>,
     product: Box<dyn InnerProduct>,
@@ -156,7 +158,8 @@ impl PodInput {
             None => None,
         };
         let snapshots = Box::new(snapshots);
-        Ok(Opened { snapshots, time_weights, product, inner_product, grid: self.grid })
+        let (timed, grid) = (self.times.is_some(), self.grid);
+        Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid })
     }
 
     fn open_record(&self, path: &Path) -> Result<Opened, Error> {
@@ -190,7 +193,8 @@ impl PodInput {
         }
         let time_weights = unequal(snapshots.times());
         let snapshots = Box::new(snapshots);
-        Ok(Opened { snapshots, time_weights, product, inner_product, grid: field_grid })
+        let (timed, grid) = (true, field_grid);
+        Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid })
     }
 
     /// The weights' inner product, each node's repeated for its components; without weights, identity.
@@ -240,7 +244,7 @@ impl PodInput {
             total_energy: basis.total_energy,
             modes: columns(drawn),
             coefficients: columns(basis.coefficients.transpose()),
-            times: basis.times.clone(),
+            times: if opened.timed { basis.times.clone() } else { Vec::new() },
             grid: opened.grid,
             warnings: summary.warnings.clone(),
             provenance: provenance(manifest, String::new()),
