@@ -25,8 +25,8 @@ pub(super) fn check(
 ) -> Result<Case, CaseError> {
     let ask = Ask(document);
     let piston = piston(&ask, &file, folder)?;
+    let rom_schedule = schedule(&ask, &file, "rom.step", file.rom.step)?;
     let schedule = schedule(&ask, &file, "time.step", file.time.step)?;
-    let rom_schedule = schedule_of_models(&ask, &file)?;
     sizes(&ask, &file, &schedule)?;
     let inverse_distance = inverse_distance(&ask, &file)?;
     models(&ask, &file)?;
@@ -163,10 +163,6 @@ fn schedule(ask: &Ask, file: &CaseFile, key: &str, step: f64) -> Result<Schedule
             format!("a whole fraction of record.interval = {interval:?} s, such as {near:?}");
         ask.refuse(key, Number(step), &expected)
     })
-}
-
-fn schedule_of_models(ask: &Ask, file: &CaseFile) -> Result<Schedule, CaseError> {
-    schedule(ask, file, "rom.step", file.rom.step)
 }
 
 fn models(ask: &Ask, file: &CaseFile) -> Result<(), CaseError> {
