@@ -2,9 +2,10 @@ use crate::case::CaseError;
 use crate::directory::DirectoryError;
 use crate::format::FormatError;
 use crate::model::StepError;
+use crate::ranks::RanksError;
 use crate::record::RecordError;
 use lumley_fom::PistonError;
-use lumley_pod::{InnerProductError, PodError};
+use lumley_pod::{Failure, InnerProductError, PodError};
 use lumley_rom::ReducedError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,12 @@ use std::path::{Path, PathBuf};
 /// ```
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
+    /// Processes that were started together cannot work together.
+    #[error(transparent)]
+    Ranks(#[from] RanksError),
+    /// Another of the processes that share the work has failed, and says why.
+    #[error("{0}")]
+    Elsewhere(Failure),
     /// The case file is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
@@ -61,6 +68,12 @@ pub enum Error {
         /// The unfinished run.
         path: PathBuf,
     },
+    /// The decomposition that is to go on was begun with other snapshots.
+    #[error("{}: the unfinished decomposition was begun with other snapshots, weights or options\n  help: begin again with --force, or give what it was begun with", path.display())]
+    OtherSnapshots {
+        /// The unfinished run.
+        path: PathBuf,
+    },
     /// The settings of `lumley rom` need another basis than the run has.
     #[error("{}: its modes cannot serve with another {key}\n  help: `lumley rom` changes piston (but for domain_length), time, record, rom and pod.modes; for the rest make a new run with `lumley run`", path.display())]
     OtherBasis {
@@ -92,6 +105,11 @@ pub enum Error {
         /// What is wrong.
         message: String,
     },
+    /// Several processes were started for a command that is for one.
+    #[error(
+        "only `lumley pod` can share its work among processes\n  help: start this command without mpirun or srun"
+    )]
+    OneProcess,
     /// The command has nothing to work on.
     #[error("nothing to do: {what}")]
     NothingToDo {
@@ -118,21 +136,41 @@ pub enum Error {
     },
 }
 
+impl From<Failure> for Error {
+    fn from(failure: Failure) -> Self {
+        Self::Elsewhere(failure)
+    }
+}
+
 impl Error {
     /// Puts the file in front of what is wrong with its snapshots.
     pub(crate) fn pod<E: Into<PodError>>(path: &Path) -> impl Fn(E) -> Self + '_ {
-        move |source| Self::Pod { path: path.to_owned(), source: source.into() }
+        move |source| match source.into() {
+            PodError::Elsewhere(failure) => Self::Elsewhere(failure),
+            source => Self::Pod { path: path.to_owned(), source },
+        }
+    }
+
+    /// Whether a disk or file was to blame, and not what stood there.
+    pub(crate) fn is_of_medium(&self) -> bool {
+        match self {
+            Self::Pod { source: PodError::Medium(error), .. } => {
+                error.kind() != io::ErrorKind::InvalidData
+            }
+            Self::Format(FormatError::Io { .. }) | Self::Directory(DirectoryError::Io { .. }) => {
+                true
+            }
+            _ => false,
+        }
     }
 
     /// 1 where the computation failed, 2 where the input is wrong or the system refuses.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Pod { source, .. } if source.is_of_computation() => 1,
+            Self::Elsewhere(failure) if failure.of_computation => 1,
             Self::Step(_)
             | Self::Verification { .. }
-            | Self::Pod {
-                source: PodError::NoConvergence { .. } | PodError::LostOrthogonality,
-                ..
-            }
             | Self::Record(RecordError::NonFinite { .. })
             | Self::Piston(PistonError::NonFinite { .. }) => 1,
             _ => 2,

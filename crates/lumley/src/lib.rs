@@ -26,6 +26,7 @@ pub mod format;
 pub mod manifest;
 pub mod model;
 pub mod progress;
+pub mod ranks;
 pub mod record;
 pub mod report;
 pub mod run;

@@ -22,6 +22,8 @@ pub struct Progress {
     stage: String,
     length: usize,
     started: Instant,
+    part_started: Instant,
+    done_before: usize,
     spoken: Instant,
     bar: ProgressBar,
 }
@@ -40,7 +42,16 @@ impl Progress {
     fn new(loud: bool) -> Self {
         let now = Instant::now();
         let (stage, bar) = (String::new(), ProgressBar::hidden());
-        Self { loud, stage, length: 0, started: now, spoken: now, bar }
+        Self {
+            loud,
+            stage,
+            length: 0,
+            started: now,
+            part_started: now,
+            done_before: 0,
+            spoken: now,
+            bar,
+        }
     }
 
     /// A stage of `length` parts begins.
@@ -48,6 +59,7 @@ impl Progress {
         stage.clone_into(&mut self.stage);
         self.length = length;
         self.started = Instant::now();
+        (self.part_started, self.done_before) = (self.started, 0);
         self.spoken = self.started;
         if self.loud && std::io::stderr().is_terminal() {
             let bar =
@@ -61,6 +73,15 @@ impl Progress {
         }
     }
 
+    /// A part of the stage begins, of `length` pieces of its own, `done` of which were done before.
+    pub fn part(&mut self, length: usize, done: usize) {
+        (self.length, self.done_before) = (length, done);
+        self.part_started = Instant::now();
+        self.bar.set_length(length as u64);
+        self.bar.set_position(done as u64);
+        self.bar.reset_eta();
+    }
+
     /// `done` parts of the stage are done.
     pub fn advance(&mut self, done: usize, message: &str) {
         if !self.bar.is_hidden() {
@@ -68,8 +89,9 @@ impl Progress {
             self.bar.set_message(message.to_owned());
         } else if self.loud && self.spoken.elapsed() > QUIET {
             self.spoken = Instant::now();
-            let passed = self.started.elapsed().as_secs_f64();
-            let left = passed / done.max(1) as f64 * self.length.saturating_sub(done) as f64;
+            let passed = self.part_started.elapsed().as_secs_f64();
+            let now_done = done.saturating_sub(self.done_before).max(1);
+            let left = passed / now_done as f64 * self.length.saturating_sub(done) as f64;
             eprintln!("{:>20}  {done} of {}  {left:.0} s left  {message}", self.stage, self.length);
         }
     }

@@ -145,6 +145,9 @@ pub struct Decomposition {
     pub reason: String,
     /// Number of modes that the asked share of the energy, or the asked count, takes.
     pub modes: usize,
+    /// Passes over the snapshots that it took.
+    #[serde(default)]
+    pub passes: usize,
     /// Sum of all eigenvalues.
     pub total_energy: f64,
     /// Eigenvalues lambda, largest first.

@@ -1,26 +1,42 @@
+use crate::inner_product::support;
 use crate::mean::Mean;
-use crate::product::{Columns, block};
-use crate::reduction::Blocks;
+use crate::partition::Partition;
+use crate::plan::{Demand, Plan};
+use crate::reduction::Reduction;
 use crate::spectrum::Spectrum;
-use crate::{InnerProduct, Options, PodError, SnapshotSource, Truncation, time_weights};
-use faer::{ColRef, Mat, MatMut};
+use crate::{
+    Execution, InnerProduct, Options, PodError, Reach, SnapshotSource, Truncation, time_weights,
+};
+use faer::{Mat, MatMut};
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 
-/// The snapshots as the algorithms see them: checked, centred, weighted in time.
+/// The snapshots as the algorithms see them: checked, centred, weighted in time, read by tiles of rows.
 ///
-/// As [`Columns`] it is the matrix of `s_j (u_j - <u>)` with `s_j = sqrt(M q_j)`, so that the time
+/// What is read is the matrix of `s_j (u_j - <u>)` with `s_j = sqrt(M q_j)`, so that the time
 /// average needs no weights: `<(u, v)> = (1/M) sum_j`.
 pub(crate) struct Ensemble<'a> {
-    source: &'a dyn SnapshotSource,
+    pub source: &'a dyn SnapshotSource,
     pub product: &'a dyn InnerProduct,
     pub options: &'a Options,
     pub time_weights: Vec<f64>,
     /// `s_j`, all one without time weights.
     pub scale: Vec<f64>,
+    /// `sum_i W_ii <u_i²>` where W couples all rows: the energy that errors of the size of the
+    /// entries have. Zero where it is the energy of the snapshots itself.
+    pub amplified: f64,
+    pub partition: Partition,
+    plan: Plan,
+    buffers: Mutex<Vec<Mat<f64>>>,
+}
+
+/// Some rows of the snapshots.
+pub(crate) struct Tile<'t> {
+    pub rows: Range<usize>,
+    /// These rows and those after them that the inner product reaches, centred and weighted.
+    pub x: MatMut<'t, f64>,
+    /// Their mean, where it was subtracted.
     pub mean: Option<Mean>,
-    /// `sum_i W_ii <x_i²>` of the fluctuation where W couples rows: the energy that errors of the
-    /// size of the entries have. Zero where it is the energy of the snapshots itself.
-    amplified: f64,
 }
 
 impl<'a> Ensemble<'a> {
@@ -37,110 +53,122 @@ impl<'a> Ensemble<'a> {
             Some(_) => time_weights.iter().map(|q| (m as f64 * q).sqrt()).collect(),
             None => vec![1.0; m],
         };
-        let (mean, amplified) = (None, 0.0);
-        let mut ensemble = Self { source, product, options, time_weights, scale, mean, amplified };
-        if options.center {
-            ensemble.mean = Some(ensemble.time_mean()?);
-        }
-        if product.couples_rows() {
-            ensemble.amplified = ensemble.amplified_energy()?;
-        }
-        Ok(ensemble)
+        let partition = Partition::new(source.dim(), m);
+        let reach = match product.reach() {
+            Reach::Rows(after) => after,
+            Reach::All => 0, // only whole columns are read then, not tiles
+        };
+        let (threads, read) = (options.par.degree().max(1), source.read_size());
+        let demand = Demand { partition, snapshots: m, threads, reach, read };
+        let plan = Plan::new(&demand, options.memory_limit)?;
+        let (amplified, buffers) = (0.0, Mutex::default());
+        Ok(Self {
+            source,
+            product,
+            options,
+            time_weights,
+            scale,
+            amplified,
+            partition,
+            plan,
+            buffers,
+        })
     }
 
-    /// Times of the snapshots, in s.
-    pub fn times(&self) -> &[f64] {
-        self.source.times()
+    /// Rows and columns of the snapshot matrix.
+    pub fn shape(&self) -> (usize, usize) {
+        (self.source.dim(), self.scale.len())
     }
 
-    /// Refuses what would exceed the memory limit.
-    pub fn check_memory(
+    /// How sums over its rows are taken.
+    pub fn reduction<'e>(&self, execution: Execution<'e>) -> Reduction<'e> {
+        let (partition, par) = (self.partition, self.options.par);
+        Reduction { partition, execution, par, group: self.plan.group }
+    }
+
+    /// Reads `rows` tile by tile.
+    pub fn for_tiles(
         &self,
-        what: &'static str,
-        bytes: u128,
-        remedy: &'static str,
+        rows: Range<usize>,
+        visit: &mut dyn FnMut(Tile<'_>) -> Result<(), PodError>,
     ) -> Result<(), PodError> {
-        let limit = self.options.memory_limit;
-        if bytes > u128::from(limit) {
-            return Err(PodError::Memory { what, bytes, limit, remedy });
+        let mut buffer = self.take_buffer();
+        let visited = Partition::pieces(rows, self.plan.tile).try_for_each(|rows| {
+            let support = support(self.product, &rows);
+            if buffer.nrows() < support.len() {
+                buffer = Mat::zeros(support.len(), self.scale.len());
+            }
+            let mut x = buffer.subrows_mut(0, support.len());
+            let mean = self.read(support, x.as_mut())?;
+            visit(Tile { rows, x, mean })
+        });
+        self.buffers.lock().unwrap_or_else(PoisonError::into_inner).push(buffer);
+        visited
+    }
+
+    fn take_buffer(&self) -> Mat<f64> {
+        let kept = self.buffers.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        kept.unwrap_or_else(Mat::new)
+    }
+
+    /// Reads rows of all snapshots, centred and weighted.
+    fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> Result<Option<Mean>, PodError> {
+        self.source.block(rows, 0..self.scale.len(), out.as_mut())?;
+        let mean = self.options.center.then(|| Mean::new(out.as_ref(), &self.time_weights));
+        self.prepare(mean.as_ref(), 0..self.scale.len(), out);
+        Ok(mean)
+    }
+
+    /// Centres and weights columns `cols` of some rows, whose mean this is.
+    pub fn prepare(&self, mean: Option<&Mean>, cols: Range<usize>, mut x: MatMut<'_, f64>) {
+        if let Some(mean) = mean {
+            mean.subtract(x.as_mut());
         }
-        Ok(())
+        if self.options.time_weights.is_some() {
+            for (column, s) in x.as_mut().col_iter_mut().zip(&self.scale[cols]) {
+                column.iter_mut().for_each(|x| *x *= s);
+            }
+        }
+    }
+
+    /// Names the first entry among these rows that is not finite; if there is none, it was their
+    /// squares that were too large.
+    pub fn not_finite(&self, rows: Range<usize>) -> PodError {
+        let search = || -> Result<(), PodError> {
+            for rows in Partition::pieces(rows, self.plan.tile) {
+                let mut x = Mat::zeros(rows.len(), self.scale.len());
+                read_checked(self.source, rows, 0..self.scale.len(), x.as_mut())?;
+            }
+            Err(PodError::Overflow)
+        };
+        search().err().unwrap_or(PodError::Overflow)
     }
 
     /// The spectrum of these eigenvalues, with the floor under which they are noise.
     ///
     /// Entries are known to `eps` of themselves, before the mean is subtracted: that noise has at
-    /// most the energy `eps² sum_i W_ii <x_i²>`, and the reflections of M columns make
-    /// `M eps² lambda_1` of a zero, both with a factor of 16 for what adds up.
+    /// most the energy `eps² sum_i W_ii <x_i²>`, and sums over M columns make `M eps² lambda_1` of a
+    /// zero, both with a factor of 16 for what adds up.
     ///
+    /// * `steady`: energy of the mean that was subtracted
     /// * `squaring`: the energy that goes missing where the algorithm squares, if it does
-    pub fn spectrum(&self, values: Vec<f64>, squaring: Option<f64>) -> Result<Spectrum, PodError> {
-        let (snapshots, centred) = (self.scale.len(), self.mean.is_some());
+    pub fn spectrum(
+        &self,
+        values: Vec<f64>,
+        steady: f64,
+        squaring: Option<f64>,
+    ) -> Result<Spectrum, PodError> {
+        let (snapshots, centred) = (self.scale.len(), self.options.center);
         let first = values.first().map_or(0.0, |l| snapshots as f64 * l);
-        let steady = self.mean.as_ref().map_or(0.0, |mean| mean.amplified_energy(self.product));
         let round_off = (4.0 * f64::EPSILON).powi(2) * first.max(self.amplified + steady);
         Spectrum::new(values, round_off, squaring).ok_or(PodError::NoEnergy { snapshots, centred })
     }
 
-    /// Energy that goes missing where products `uᵀ (W u)` are formed: `M eps lambda_1`, or
-    /// `8 eps sum_i W_ii <x_i²>` where W takes differences of large entries.
+    /// Energy that goes missing where products of weighted snapshots are formed: `M eps lambda_1`, or
+    /// more where W takes differences of large entries.
     pub fn squaring(&self, lambda: &[f64]) -> f64 {
         let first = lambda.first().map_or(0.0, |l| self.scale.len() as f64 * l);
         f64::EPSILON * first.max(8.0 * self.amplified)
-    }
-
-    fn time_mean(&self) -> Result<Mean, PodError> {
-        let (n, m) = self.shape();
-        let part = |rows: Range<usize>| {
-            let mut x = Mat::zeros(rows.len(), m);
-            read_checked(self.source, rows, 0..m, x.as_mut())?;
-            Ok(Mean::new(x.as_ref(), &self.time_weights))
-        };
-        Blocks::for_products(n, m).reduce(self.options.par, &part, &Mean::above)
-    }
-
-    fn amplified_energy(&self) -> Result<f64, PodError> {
-        let (n, m) = self.shape();
-        let diagonal = self.product.diagonal();
-        let part = |rows: Range<usize>| {
-            let z = block(self, rows.clone(), 0..m)?;
-            let of_column = |column: ColRef<'_, f64>| -> f64 {
-                column.iter().zip(&diagonal[rows.clone()]).map(|(x, w)| w * x * x).sum()
-            };
-            Ok::<_, PodError>(z.col_iter().map(of_column).sum::<f64>() / m as f64)
-        };
-        Blocks::for_products(n, m).reduce(self.options.par, &part, &|a, b| a + b)
-    }
-}
-
-impl Columns for Ensemble<'_> {
-    fn shape(&self) -> (usize, usize) {
-        (self.source.dim(), self.source.times().len())
-    }
-
-    fn read(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        mut out: MatMut<'_, f64>,
-    ) -> Result<(), PodError> {
-        read_checked(self.source, rows.clone(), cols.clone(), out.as_mut())?;
-        if let Some(mean) = &self.mean {
-            mean.subtract(rows, out.as_mut());
-        }
-        if self.options.time_weights.is_some() {
-            for (column, s) in out.as_mut().col_iter_mut().zip(&self.scale[cols]) {
-                column.iter_mut().for_each(|x| *x *= s);
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Subtracts one field from every column.
-pub(crate) fn subtract_from_columns(field: &[f64], mut x: MatMut<'_, f64>) {
-    for column in x.as_mut().col_iter_mut() {
-        column.iter_mut().zip(field).for_each(|(x, f)| *x -= f);
     }
 }
 

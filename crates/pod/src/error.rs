@@ -1,4 +1,4 @@
-use crate::TimeWeightsError;
+use crate::{Failure, TimeWeightsError};
 use std::io;
 
 /// Why there is no POD of these snapshots.
@@ -137,9 +137,38 @@ pub enum PodError {
         "the smallest modes lost their orthogonality to round-off: ask for fewer modes or take `svd`"
     )]
     LostOrthogonality,
-    /// The snapshots cannot be read.
-    #[error("cannot read the snapshots: {0}")]
-    Read(#[from] io::Error),
+    /// An algorithm or an inner product needs whole columns, of which each rank has some rows.
+    #[error(
+        "{ranks} ranks share the rows, but this algorithm or inner product needs whole columns: \
+         take `snapshots` or `svd` with weights for each unknown, or one rank"
+    )]
+    WholeColumns {
+        /// Number of ranks.
+        ranks: usize,
+    },
+    /// Snapshots, weights or modes cannot be read or written.
+    #[error("{0}")]
+    Medium(#[from] io::Error),
+    /// Another of the machines that share the work has failed.
+    #[error("{0}")]
+    Elsewhere(Failure),
+}
+
+impl From<Failure> for PodError {
+    fn from(failure: Failure) -> Self {
+        Self::Elsewhere(failure)
+    }
+}
+
+impl PodError {
+    /// Whether the computation failed, and not its input or the medium.
+    pub fn is_of_computation(&self) -> bool {
+        match self {
+            Self::NoConvergence { .. } | Self::LostOrthogonality => true,
+            Self::Elsewhere(failure) => failure.of_computation,
+            _ => false,
+        }
+    }
 }
 
 fn no_energy(centred: bool) -> &'static str {

@@ -1,7 +1,13 @@
-use crate::ensemble::{check_dimensions, read_checked, subtract_from_columns};
-use crate::product::{panels, product, transposed_product};
+use crate::dense::product;
+use crate::ensemble::{check_dimensions, read_checked};
+use crate::mean::subtract_from_columns;
+use crate::partition::Partition;
 use crate::{InnerProduct, PodError, ReducedBasis, SnapshotSource};
 use faer::{Mat, MatRef};
+use std::io;
+
+/// Whole columns that are read at a time.
+const PANEL: usize = 64;
 
 /// Error of the projection on the first N modes, N = 1..r, paper eq. (32):
 /// `Res(N) = max_t |u - u_N| / max_t |u|`, a fraction.
@@ -15,7 +21,7 @@ use faer::{Mat, MatRef};
 ///
 /// # Errors
 /// [`PodError::Dimension`], [`PodError::Modes`], [`PodError::Empty`], [`PodError::NonFinite`],
-/// [`PodError::Overflow`], [`PodError::Read`], and [`PodError::NoEnergy`] where every snapshot is
+/// [`PodError::Overflow`], [`PodError::Medium`], and [`PodError::NoEnergy`] where every snapshot is
 /// zero.
 ///
 /// ```
@@ -38,17 +44,17 @@ pub fn projection_residuals(
         return Err(PodError::Modes { unknowns, modes: length });
     }
     let mut modes = basis.modes.clone();
-    w.factor(0, modes.as_mut());
-    let mean = weighted_mean(basis, w);
+    w.factor(0..length, modes.as_mut())?;
+    let mean = weighted_mean(basis, w)?;
     let mut largest = 0.0_f64;
     let mut errors = vec![0.0_f64; basis.size()];
-    for cols in panels(x.times().len()) {
+    for cols in Partition::pieces(0..x.times().len(), PANEL) {
         let mut z = Mat::zeros(x.dim(), cols.len());
         read_checked(x, 0..x.dim(), cols, z.as_mut())?;
-        w.factor(0, z.as_mut());
+        w.factor(0..length, z.as_mut())?;
         largest = largest_norm(z.as_ref())?.max(largest);
         subtract_from_columns(&mean, z.as_mut());
-        let a = transposed_product(modes.as_ref(), z.as_ref());
+        let a = product(modes.transpose(), z.as_ref());
         z -= product(modes.as_ref(), a.as_ref());
         for (e, a) in z.col_iter().zip(a.col_iter()) {
             let mut square = e.squared_norm_l2();
@@ -88,13 +94,13 @@ pub fn trajectory_residual(
     check_same_samples(u, v)?;
     let (n, m) = (u.dim(), u.times().len());
     let (mut largest, mut error) = (0.0_f64, 0.0_f64);
-    for cols in panels(m) {
+    for cols in Partition::pieces(0..m, PANEL) {
         let (mut z, mut difference) = (Mat::zeros(n, cols.len()), Mat::zeros(n, cols.len()));
         read_checked(u, 0..n, cols.clone(), z.as_mut())?;
         read_checked(v, 0..n, cols, difference.as_mut())?;
         difference -= &z;
-        w.factor(0, z.as_mut());
-        w.factor(0, difference.as_mut());
+        w.factor(0..n, z.as_mut())?;
+        w.factor(0..n, difference.as_mut())?;
         largest = largest_norm(z.as_ref())?.max(largest);
         error = largest_norm(difference.as_ref())?.max(error);
     }
@@ -102,11 +108,11 @@ pub fn trajectory_residual(
 }
 
 /// F times the mean, zero where none was subtracted.
-fn weighted_mean(basis: &ReducedBasis, w: &dyn InnerProduct) -> Vec<f64> {
+fn weighted_mean(basis: &ReducedBasis, w: &dyn InnerProduct) -> io::Result<Vec<f64>> {
     let n = basis.modes.nrows();
     let mut mean = Mat::from_fn(n, 1, |i, _| basis.mean.as_ref().map_or(0.0, |mean| mean[i]));
-    w.factor(0, mean.as_mut());
-    mean.col(0).iter().copied().collect()
+    w.factor(0..n, mean.as_mut())?;
+    Ok(mean.col_as_slice(0).to_vec())
 }
 
 /// Two trajectories on one grid at the same times.

@@ -20,32 +20,52 @@
 //! ```
 //!
 //! # Bits
-//! Every sum over rows is taken block by block and merged over one fixed tree, so that the number
-//! of threads changes nothing, not the last bit.
+//! Every sum over rows is taken leaf by leaf and merged over one fixed tree, so that neither threads nor
+//! ranks nor the memory that may be taken change anything, not the last bit. [`Ranks`] is the one seam
+//! by which many machines share a decomposition, [`ModeStore`] the one by which modes larger than
+//! memory leave it, [`Journal`] the one by which a killed decomposition goes on.
 
+mod agreement;
 mod algorithm;
 mod basis;
+mod correlation;
+mod decomposition;
 mod dense;
 mod ensemble;
 mod error;
 mod error_norm;
-mod householder;
+mod execution;
 mod inner_product;
+mod journal;
+mod kernel;
 mod mean;
+mod mode_store;
 mod note;
 mod options;
-mod product;
+mod partial;
+mod partition;
+mod plan;
+mod ranks;
 mod reduction;
+mod run;
 mod snapshots;
 mod spectrum;
 pub mod time_weights;
 
-pub use algorithm::{ALGORITHMS, Algorithm, auto, direct, method_of_snapshots, svd};
+pub use agreement::{Failure, all_or_none, from_first};
+pub use algorithm::{ALGORITHMS, Algorithm, Stream, auto, direct, method_of_snapshots, svd};
 pub use basis::ReducedBasis;
+pub use decomposition::Decomposition;
 pub use error::PodError;
 pub use error_norm::{projection_residuals, trajectory_residual};
-pub use inner_product::{Diagonal, Identity, InnerProduct, InnerProductError, SparseSpd};
+pub use execution::{Execution, Pass, Unwatched, Watch};
+pub use inner_product::{
+    Diagonal, Identity, InnerProduct, InnerProductError, Kronecker, Reach, SparseSpd, Tridiagonal,
+};
+pub use journal::{Journal, NoJournal};
+pub use mode_store::{MemoryModes, ModeStore};
 pub use note::Note;
 pub use options::{Options, Truncation};
+pub use ranks::{Alone, Ranks};
 pub use snapshots::{MemorySnapshots, SnapshotSource};
 pub use time_weights::TimeWeightsError;

@@ -1,10 +1,8 @@
-use crate::InnerProduct;
-use crate::ensemble::subtract_from_columns;
 use faer::{MatMut, MatRef};
-use std::ops::Range;
 
 /// The time mean of some rows, in two parts: without the second, the rounding of a large mean
 /// stays in every snapshot and is found as a steady mode.
+#[derive(Default)]
 pub(crate) struct Mean {
     /// The mean, rounded.
     pub field: Vec<f64>,
@@ -33,20 +31,21 @@ impl Mean {
     }
 
     /// This mean on the upper rows, another on the lower.
-    pub fn above(mut self, lower: Self) -> Self {
+    pub fn extend(&mut self, lower: Self) {
         self.field.extend(lower.field);
         self.remainder.extend(lower.remainder);
-        self
     }
 
-    /// Subtracts the mean of these rows from every column.
-    pub fn subtract(&self, rows: Range<usize>, mut x: MatMut<'_, f64>) {
-        subtract_from_columns(&self.field[rows.clone()], x.as_mut());
-        subtract_from_columns(&self.remainder[rows], x);
+    /// Subtracts the mean from every column.
+    pub fn subtract(&self, mut x: MatMut<'_, f64>) {
+        subtract_from_columns(&self.field, x.as_mut());
+        subtract_from_columns(&self.remainder, x);
     }
+}
 
-    /// `sum_i W_ii <u_i>²`: the energy of errors of the size of the mean.
-    pub fn amplified_energy(&self, product: &dyn InnerProduct) -> f64 {
-        product.diagonal().iter().zip(&self.field).map(|(w, u)| w * u * u).sum()
+/// Subtracts one field from every column.
+pub(crate) fn subtract_from_columns(field: &[f64], mut x: MatMut<'_, f64>) {
+    for column in x.as_mut().col_iter_mut() {
+        column.iter_mut().zip(field).for_each(|(x, f)| *x -= f);
     }
 }

@@ -40,8 +40,10 @@ pub struct Options {
     /// Threads for the work that grows with the number of unknowns; by default one. The result
     /// is the same to the last bit.
     pub par: Par,
-    /// Most memory, in bytes, that an algorithm may take for its dense matrices; 4 GiB by
-    /// default. The modes themselves are not counted.
+    /// Whether to measure what the modes leave of each snapshot, paper eq. (32), on the way.
+    pub residuals: bool,
+    /// Most memory, in bytes, that a decomposition may take for what it holds; 4 GiB by default. It
+    /// changes no bit of the result. Modes that are kept in memory are not counted.
     pub memory_limit: u64,
 }
 
@@ -52,6 +54,7 @@ impl Default for Options {
             center: false,
             time_weights: None,
             par: Par::Seq,
+            residuals: false,
             memory_limit: 4 << 30,
         }
     }

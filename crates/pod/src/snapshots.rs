@@ -39,6 +39,10 @@ pub trait SnapshotSource: Sync {
     /// The failure of the medium, or damaged data, named.
     fn block(&self, rows: Range<usize>, cols: Range<usize>, out: MatMut<'_, f64>)
     -> io::Result<()>;
+    /// Bytes that one block should have for reading it to be cheap: none where any size is.
+    fn read_size(&self) -> usize {
+        0
+    }
 }
 
 /// Snapshots held in memory.

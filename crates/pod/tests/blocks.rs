@@ -5,8 +5,8 @@ mod common;
 use common::{products, random_matrix, times, with_singular_values};
 use faer::{MatMut, Par};
 use lumley_pod::{
-    ALGORITHMS, Identity, MemorySnapshots, Options, SnapshotSource, Truncation, auto,
-    method_of_snapshots, svd,
+    ALGORITHMS, Identity, InnerProduct, MemorySnapshots, Options, PodError, ReducedBasis,
+    SnapshotSource, Truncation, auto, method_of_snapshots, svd,
 };
 use std::io;
 use std::ops::Range;
@@ -37,6 +37,8 @@ fn threads_do_not_change_a_bit() {
     }
 }
 
+type Run = fn(&dyn SnapshotSource, &dyn InnerProduct, &Options) -> Result<ReducedBasis, PodError>;
+
 /// Counts what is read.
 struct Counting {
     x: MemorySnapshots,
@@ -66,12 +68,13 @@ impl SnapshotSource for Counting {
     }
 }
 
-/// Two passes in blocks, far from the whole; one more for the mean.
+/// Two passes in blocks, far from the whole, also for the exact route where columns are far from
+/// dependent; less their mean they are not, and it takes another.
 #[test]
 fn snapshots_are_read_twice_by_blocks() {
     let n = 60_000;
-    for run in [method_of_snapshots, svd] {
-        for (center, passes) in [(false, 2), (true, 3)] {
+    for (run, less_mean) in [(method_of_snapshots as Run, 2), (svd, 3)] {
+        for (center, passes) in [(false, 2), (true, less_mean)] {
             let x = Counting {
                 x: MemorySnapshots::new(random_matrix(n, 10, 3), times(10)),
                 entries: AtomicUsize::new(0),
@@ -111,7 +114,7 @@ fn a_source_that_cannot_be_read_is_an_error() {
             let options = Options { par, ..Options::default() };
             let error = (algorithm.run)(&Broken(times(3)), &Identity::new(N), &options);
             let message = error.expect_err("the last block is damaged").to_string();
-            assert_eq!(message, "cannot read the snapshots: block 7 is damaged");
+            assert_eq!(message, "block 7 is damaged");
         }
     }
 }

@@ -13,7 +13,9 @@ use crate::Error;
 use crate::case::{Case, CaseError};
 use crate::directory::Existing;
 use crate::progress::Progress;
+use crate::ranks::{Job, together};
 use clap::{Args, Parser, Subcommand};
+use lumley_pod::Ranks;
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -89,21 +91,35 @@ impl Output {
 /// Runs the command line of this process.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    match dispatch(cli.command) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(error.exit_code())
-        }
+    let job = match Job::join() {
+        Ok(job) => job,
+        Err(error) => return ExitCode::from(report_failure("", &error.into())),
+    };
+    let (rank, count) = (job.ranks().rank(), job.ranks().count());
+    let who = if count > 1 { format!("rank {rank}: ") } else { String::new() };
+    match dispatch(cli.command, job.ranks()) {
+        Ok(()) => job.end(0),
+        // The process that failed says why and ends them all.
+        Err(Error::Elsewhere(_)) => job.end(0),
+        Err(error) => job.end(report_failure(&who, &error)),
     }
 }
 
-fn dispatch(command: Command) -> Result<(), Error> {
-    let mut progress = Progress::stderr();
+fn report_failure(who: &str, error: &Error) -> u8 {
+    eprintln!("error: {who}{error}");
+    error.exit_code()
+}
+
+fn dispatch(command: Command, ranks: &dyn Ranks) -> Result<(), Error> {
+    let first = ranks.rank() == 0;
+    let mut progress = if first { Progress::stderr() } else { Progress::silent() };
     match command {
+        Command::Pod(arguments) => arguments.execute(ranks, &mut progress),
+        _ if ranks.count() > 1 => {
+            together(ranks, if first { Err(Error::OneProcess) } else { Ok(()) })
+        }
         Command::Run(arguments) => arguments.execute(&mut progress),
         Command::Check(arguments) => arguments.execute(),
-        Command::Pod(arguments) => arguments.execute(&mut progress),
         Command::Rom(arguments) => arguments.execute(&mut progress),
         Command::Report(arguments) => arguments.execute(&mut progress),
         Command::Info(arguments) => arguments.execute(),

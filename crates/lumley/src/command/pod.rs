@@ -4,10 +4,11 @@ use crate::case::PodChoice;
 use crate::directory::default_target;
 use crate::format::npy::SnapshotLayout;
 use crate::progress::Progress;
+use crate::ranks::path_of_first;
 use crate::report::FieldGrid;
 use crate::run::{PodInput, Task, decompose_snapshots};
 use clap::{Args, ValueEnum};
-use lumley_pod::Truncation;
+use lumley_pod::{Ranks, Truncation};
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -42,6 +43,12 @@ pub(super) struct Arguments {
     /// Subtract the mean over time
     #[arg(long)]
     center: bool,
+    /// Most memory to take, such as 200MB or 4GiB; by default a quarter of the machine's
+    #[arg(long, value_name = "SIZE", value_parser = size)]
+    memory: Option<u64>,
+    /// Go on with an unfinished decomposition
+    #[arg(long)]
+    resume: bool,
     /// Threads; by default all
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
@@ -55,12 +62,39 @@ enum Layout {
     Columns,
 }
 
+/// Bytes of a size with its unit.
+fn size(text: &str) -> Result<u64, String> {
+    const UNITS: [(&str, f64); 9] = [
+        ("kib", 1024.0),
+        ("mib", 1_048_576.0),
+        ("gib", 1_073_741_824.0),
+        ("tib", 1_099_511_627_776.0),
+        ("kb", 1e3),
+        ("mb", 1e6),
+        ("gb", 1e9),
+        ("tb", 1e12),
+        ("b", 1.0),
+    ];
+    let text = text.to_ascii_lowercase();
+    let unit = UNITS.iter().find_map(|(name, unit)| Some((text.strip_suffix(name)?, unit)));
+    let (number, unit) = unit.ok_or("expected a number with its unit, such as 200MB or 4GiB")?;
+    match number.trim().parse::<f64>() {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a checked range"
+        )]
+        Ok(number) if number * unit >= 1.0 && number * unit < 1e18 => Ok((number * unit) as u64),
+        _ => Err("expected a positive number with its unit, such as 200MB or 4GiB".into()),
+    }
+}
+
 fn methods() -> clap::builder::PossibleValuesParser {
     clap::builder::PossibleValuesParser::new(lumley_pod::ALGORITHMS.iter().map(|a| a.name))
 }
 
 impl Arguments {
-    pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
+    pub(super) fn execute(&self, ranks: &dyn Ranks, progress: &mut Progress) -> Result<(), Error> {
         if self.grid.len() > 3 {
             let value = self.grid.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
             let expected = "one to three numbers of nodes".into();
@@ -77,14 +111,21 @@ impl Arguments {
             grid: self.field_grid(),
             components: self.components,
             choice: self.choice()?,
+            memory: self.memory,
         };
         let stem = self.snapshots_file.file_stem().unwrap_or_default();
         let name = format!("{}-pod", stem.to_string_lossy());
         let named = self.output.directory.clone();
-        let target = named.unwrap_or_else(|| default_target(&name, false));
-        let mut task = Task::new(&target, self.output.existing(false));
+        let target = match named {
+            Some(directory) => directory,
+            None => path_of_first(ranks, || default_target(&name, self.resume))?,
+        };
+        let mut task = Task::new(&target, self.output.existing(self.resume));
         task.threads = self.threads.map_or(task.threads, usize::from);
-        let (directory, summary) = decompose_snapshots(&input, &task, progress)?;
+        let (directory, summary) = decompose_snapshots(&input, &task, ranks, progress)?;
+        if ranks.rank() > 0 {
+            return Ok(());
+        }
         if self.output.json {
             say(&summary.to_json())?;
         } else {

@@ -110,6 +110,14 @@ impl Workplace {
         Ok(path)
     }
 
+    /// Removes a file or folder of the run.
+    ///
+    /// # Errors
+    /// [`DirectoryError::Io`].
+    pub fn remove(&self, name: &str) -> Result<(), DirectoryError> {
+        remove(&self.partial.join(name))
+    }
+
     /// Nothing of this is worth going on with: removes the partial directory, which lumley made.
     ///
     /// # Errors

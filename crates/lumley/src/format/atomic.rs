@@ -47,6 +47,20 @@ impl AtomicFile {
         }
     }
 
+    /// Takes the file `temporary`, written before, to be `target`.
+    ///
+    /// # Errors
+    /// The system's, for example that there is no such file.
+    pub(super) fn adopt(temporary: &Path, target: &Path) -> io::Result<Self> {
+        let file = File::options().read(true).write(true).open(temporary)?;
+        Ok(Self { file, temporary: temporary.to_owned(), target: target.to_owned() })
+    }
+
+    /// What is written so far.
+    pub(super) fn file(&self) -> &File {
+        &self.file
+    }
+
     /// Brings the content to the disk and gives it its name.
     ///
     /// # Errors

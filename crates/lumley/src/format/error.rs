@@ -131,6 +131,16 @@ pub enum FormatError {
         /// The checksum of the bytes.
         computed: u32,
     },
+    /// Processes that share an archive do not see one file.
+    #[error("{}: {found} bytes of the {expected} that all processes wrote\n  help: put the results on a file system that they share", path.display())]
+    NotShared {
+        /// The archive.
+        path: PathBuf,
+        /// Bytes that this process sees.
+        found: u64,
+        /// Bytes that there must be.
+        expected: u64,
+    },
     /// A line of a table is wrong.
     #[error("{}: line {line}: expected {expected}, found {text:?}", path.display())]
     Line {

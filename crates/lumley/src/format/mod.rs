@@ -8,6 +8,7 @@ pub mod csv;
 mod error;
 pub mod npy;
 pub mod npz;
+pub(crate) mod positioned;
 mod region;
 
 pub use error::FormatError;

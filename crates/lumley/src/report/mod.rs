@@ -23,5 +23,5 @@ pub use piston::{
     EqualAccuracy, Frame, ModeSet, Outcome, Parameters, PistonReport, RomResults, RomRun,
     Trajectory, TransferError, Variant,
 };
-pub use pod::{FieldGrid, PodReport};
+pub use pod::{DrawnModes, FieldGrid, PodReport};
 pub use provenance::Provenance;

@@ -1,8 +1,13 @@
 use crate::Error;
+use crate::format::FormatError;
 use crate::format::npz::{NpzReader, NpzWriter};
 use faer::Mat;
-use lumley_pod::ReducedBasis;
+use lumley_pod::{Decomposition, ReducedBasis};
 use std::path::Path;
+
+pub(super) const MODES: &str = "modes";
+pub(super) const MEAN: &str = "mean";
+const COEFFICIENTS: &str = "coefficients";
 
 /// A basis on disk: what a reduced model and a report need of it.
 ///
@@ -35,30 +40,35 @@ impl BasisFile {
     /// The failure of the disk.
     pub fn save(path: &Path, basis: &ReducedBasis) -> Result<(), Error> {
         let mut npz = NpzWriter::create(path)?;
-        npz.matrix("modes", basis.modes.as_ref())?;
-        npz.vector("eigenvalues", &basis.eigenvalues)?;
-        npz.vector("singular_values", &basis.singular_values)?;
-        npz.matrix("coefficients", basis.coefficients.as_ref())?;
-        npz.vector("times", &basis.times)?;
-        npz.vector("time_weights", &basis.time_weights)?;
-        npz.vector("spectrum", &basis.spectrum)?;
+        npz.matrix(MODES, basis.modes.as_ref())?;
         if let Some(mean) = &basis.mean {
-            npz.vector("mean", mean)?;
+            npz.vector(MEAN, mean)?;
         }
+        push_small(&mut npz, basis)?;
         Ok(npz.finish()?)
     }
 
-    /// Reads a basis that [`save`](Self::save) wrote.
+    /// Reads a basis that [`save`](Self::save) or [`FileModes`](super::FileModes) wrote, into memory.
     ///
     /// # Errors
     /// A file that is damaged or holds something else.
     pub fn load(path: &Path) -> Result<Self, Error> {
         let npz = NpzReader::open(path)?;
-        let has_mean = npz.names().any(|name| name == "mean");
+        let has_mean = npz.names().any(|name| name == MEAN);
         Ok(Self {
-            modes: npz.read("modes")?,
-            coefficients: npz.read("coefficients")?,
-            mean: if has_mean { Some(npz.vector("mean")?) } else { None },
+            modes: npz.read(MODES)?,
+            coefficients: npz.read(COEFFICIENTS)?,
+            mean: if has_mean { Some(npz.vector(MEAN)?) } else { None },
         })
     }
+}
+
+/// Adds to the modes all that does not grow with them.
+pub(super) fn push_small(npz: &mut NpzWriter, found: &Decomposition) -> Result<(), FormatError> {
+    npz.vector("eigenvalues", &found.eigenvalues)?;
+    npz.vector("singular_values", &found.singular_values)?;
+    npz.matrix(COEFFICIENTS, found.coefficients.as_ref())?;
+    npz.vector("times", &found.times)?;
+    npz.vector("time_weights", &found.time_weights)?;
+    npz.vector("spectrum", &found.spectrum)
 }

@@ -2,19 +2,19 @@ use super::Work;
 use crate::Error;
 use crate::model::{Frame, Model, Observer};
 use faer::Mat;
-use lumley_pod::{InnerProduct, SparseSpd};
+use lumley_pod::{InnerProduct, Kronecker};
 
 /// Res (32) of a run that is under way.
 pub(super) struct Comparison<'a> {
     frame: Frame,
     full: &'a Snapshots,
-    product: &'a SparseSpd,
+    product: &'a Kronecker,
     difference: Mat<f64>,
     error: f64,
 }
 
 impl<'a> Comparison<'a> {
-    pub(super) fn new(full: &'a Snapshots, frame: Frame, product: &'a SparseSpd) -> Self {
+    pub(super) fn new(full: &'a Snapshots, frame: Frame, product: &'a Kronecker) -> Self {
         let difference = Mat::zeros(full.velocities.nrows(), 1);
         Self { frame, full, product, difference, error: 0.0 }
     }
@@ -32,7 +32,7 @@ impl<M: Model> Observer<M> for Comparison<'_> {
             for (v, u) in column.iter_mut().zip(self.full.velocities.col(snapshot).iter()) {
                 *v -= u;
             }
-            self.product.factor(0, self.difference.as_mut());
+            weighted(self.product, &mut self.difference);
             self.error = self.error.max(self.difference.norm_l2());
         }
         Ok(())
@@ -46,10 +46,16 @@ pub(super) struct Snapshots {
 }
 
 impl Snapshots {
-    pub(super) fn new(velocities: Mat<f64>, product: &SparseSpd) -> Self {
+    pub(super) fn new(velocities: Mat<f64>, product: &Kronecker) -> Self {
         let mut z = velocities.clone();
-        product.factor(0, z.as_mut());
+        weighted(product, &mut z);
         let largest = z.col_iter().map(|column| column.norm_l2()).fold(0.0, f64::max);
         Self { velocities, largest }
     }
+}
+
+/// Columns x become `F x`, whose norms are those of the product.
+fn weighted(product: &Kronecker, x: &mut Mat<f64>) {
+    let factored = product.factor(0..x.nrows(), x.as_mut());
+    factored.expect("the product of a grid reads no file");
 }

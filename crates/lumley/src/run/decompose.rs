@@ -9,8 +9,8 @@ use faer::{Mat, Par};
 use lumley_fem::LineMesh;
 use lumley_fem::element::{P1, P2};
 use lumley_pod::{
-    ALGORITHMS, InnerProduct, MemorySnapshots, Note, Options, PodError, ReducedBasis,
-    SnapshotSource, SparseSpd, Truncation, projection_residuals,
+    ALGORITHMS, Algorithm, Decomposition as Found, InnerProduct, MemorySnapshots, Note, Options,
+    PodError, ReducedBasis, SnapshotSource, SparseSpd, Truncation, projection_residuals,
 };
 use std::num::NonZero;
 use std::path::Path;
@@ -64,36 +64,47 @@ impl Decomposed {
     }
 
     pub(super) fn summary(&self) -> Decomposition {
-        let basis = &self.basis;
-        let reason = basis.notes.iter().find(|note| !note.is_warning());
-        Decomposition {
-            method: basis.algorithm.to_owned(),
-            reason: reason.map(ToString::to_string).unwrap_or_default(),
-            modes: self.chosen,
-            total_energy: basis.total_energy,
-            eigenvalues: basis.eigenvalues.clone(),
-            singular_values: basis.singular_values.clone(),
-            energy_percent: basis.energy_percent(),
-            cumulative_percent: basis.cumulative_percent(),
-            rms_error_percent: basis.rms_projection_error().iter().map(|e| 100.0 * e).collect(),
-        }
+        summary_of(&self.basis, self.chosen)
     }
+}
 
-    /// One line for people.
-    pub(super) fn headline(&self) -> String {
-        let energy = self.basis.cumulative_percent()[self.chosen - 1];
-        format!("{} modes hold {energy:.4} % of the energy ({})", self.chosen, self.basis.algorithm)
+/// A decomposition as the summary tells it, of which `chosen` modes were asked for.
+pub(super) fn summary_of(found: &Found, chosen: usize) -> Decomposition {
+    let reason = found.notes.iter().find(|note| !note.is_warning());
+    Decomposition {
+        method: found.algorithm.to_owned(),
+        reason: reason.map(ToString::to_string).unwrap_or_default(),
+        modes: chosen,
+        passes: found.passes,
+        total_energy: found.total_energy,
+        eigenvalues: found.eigenvalues.clone(),
+        singular_values: found.singular_values.clone(),
+        energy_percent: found.energy_percent(),
+        cumulative_percent: found.cumulative_percent(),
+        rms_error_percent: found.rms_projection_error().iter().map(|e| 100.0 * e).collect(),
     }
+}
 
-    /// What the reader should know: the basis has less than was asked for.
-    pub(super) fn warnings(&self, choice: &PodChoice) -> Vec<String> {
-        let asked = match choice.truncation {
-            Truncation::Modes(modes) => modes,
-            Truncation::Energy(_) => 1,
-        };
-        let notes = self.basis.notes.iter().filter(|note| note.is_warning());
-        notes.filter(|_| self.basis.size() < asked).map(Note::to_string).collect()
-    }
+/// One line for people.
+pub(super) fn headline(found: &Found, chosen: usize) -> String {
+    let energy = found.cumulative_percent()[chosen - 1];
+    format!("{chosen} modes hold {energy:.4} % of the energy ({})", found.algorithm)
+}
+
+/// What the reader should know: the basis has less than was asked for.
+pub(super) fn warnings(found: &Found, choice: &PodChoice) -> Vec<String> {
+    let asked = match choice.truncation {
+        Truncation::Modes(modes) => modes,
+        Truncation::Energy(_) => 1,
+    };
+    let notes = found.notes.iter().filter(|note| note.is_warning());
+    notes.filter(|_| found.size() < asked).map(Note::to_string).collect()
+}
+
+/// The algorithm of this name, which was checked.
+pub(super) fn algorithm(name: &str) -> &'static Algorithm {
+    let known = ALGORITHMS.iter().find(|algorithm| algorithm.name == name);
+    known.expect("the choice names a known method")
 }
 
 fn pod(
@@ -104,12 +115,10 @@ fn pod(
     truncation: Truncation,
     threads: usize,
 ) -> Result<ReducedBasis, PodError> {
-    let algorithm = ALGORITHMS.iter().find(|algorithm| algorithm.name == choice.method);
-    let algorithm = algorithm.expect("the choice names a known method");
     let par = NonZero::new(threads).filter(|n| n.get() > 1).map_or(Par::Seq, Par::Rayon);
     let center = choice.center;
     let options = Options { truncation, center, time_weights, par, ..Options::default() };
-    (algorithm.run)(x, product, &options)
+    (algorithm(&choice.method).run)(x, product, &options)
 }
 
 /// The decompositions of a run, and what projection on the first modes loses.

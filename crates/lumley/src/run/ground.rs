@@ -6,7 +6,7 @@ use crate::case::Case;
 use crate::model::{Frame, Model};
 use faer::{Mat, MatRef};
 use lumley_fem::UniformGrid;
-use lumley_pod::SparseSpd;
+use lumley_pod::{Kronecker, Tridiagonal};
 use lumley_rom::{Basis, ModelChoice, PistonPhysics, PistonStart, ReducedPiston};
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(super) struct Ground<'a> {
     /// The full-order model to compare with.
     pub full: Option<Snapshots>,
     /// L2 on the fixed grid.
-    pub product: SparseSpd,
+    pub product: Kronecker,
     /// Number of modes whose trajectory is kept.
     shown: usize,
 }
@@ -131,9 +131,9 @@ impl<'a> Ground<'a> {
 ///
 /// # Panics
 /// Never: a mass matrix is positive definite.
-pub fn grid_product(grid: &UniformGrid, components: usize) -> SparseSpd {
-    let (n, entries) = (grid.len(), grid.mass_matrix());
-    let block = |c: usize| entries.iter().map(move |&(i, j, m)| (c * n + i, c * n + j, m));
-    let all: Vec<_> = (0..components).flat_map(block).collect();
-    SparseSpd::from_triplets(components * n, &all).expect("a mass matrix is positive definite")
+pub fn grid_product(grid: &UniformGrid, components: usize) -> Kronecker {
+    let direction = |(diagonal, beside): &(Vec<f64>, Vec<f64>)| {
+        Tridiagonal::new(diagonal, beside).expect("a mass matrix is positive definite")
+    };
+    Kronecker::new(grid.mass_factors().iter().map(direction).collect(), components)
 }

@@ -1,4 +1,4 @@
-use super::decompose::{Decomposed, Decompositions, decompose, whole};
+use super::decompose::{Decomposed, Decompositions, decompose, headline, warnings, whole};
 use super::ground::Ground;
 use super::reduce::reduce;
 use super::simulate::{full_order, simulate};
@@ -69,7 +69,7 @@ pub fn run(case: &Case, task: &Task, progress: &mut Progress) -> Result<(PathBuf
     let record = Record::open(place.path().join("record"))?;
     progress.begin("pod", 1);
     let found = decompose(case, &record, &place, task.threads)?;
-    manifest.stage("pod", progress.end(&found.fixed.headline()));
+    manifest.stage("pod", progress.end(&headline(&found.fixed.basis, found.fixed.chosen)));
 
     let full = whole(&record.frame("fixed")?)?;
     let ground = Ground::new(case, place.path(), Some(full), found.fixed.chosen)?;
@@ -142,7 +142,7 @@ fn summarise(ground: &Ground, record: &Record, found: &Decompositions) -> Result
         pod_reference: found.reference.as_ref().map(Decomposed::summary),
         projection: Projection { res_percent: found.projection_percent.clone() },
         probes: probes::probes(record)?,
-        warnings: found.fixed.warnings(&case.pod),
+        warnings: warnings(&found.fixed.basis, &case.pod),
         ..Summary::default()
     })
 }

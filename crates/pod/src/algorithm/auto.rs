@@ -1,20 +1,23 @@
-use super::direct::{correlation_in_space, finish_in_space};
+use super::direct;
 use super::lift::lift;
-use super::snapshots::correlation_in_time;
+use super::snapshots::eigenvectors;
 use super::svd::bi_orthogonal;
-use crate::ensemble::Ensemble;
-use crate::product::Columns;
+use crate::correlation::correlation;
+use crate::run::Run;
 use crate::spectrum::Spectrum;
-use crate::{InnerProduct, Note, Options, PodError, ReducedBasis, SnapshotSource};
+use crate::{
+    Decomposition, Execution, InnerProduct, ModeStore, Note, Options, PodError, ReducedBasis,
+    SnapshotSource,
+};
 
 /// The cheapest algorithm that is exact for the modes asked for.
 ///
 /// Exact: every singular value asked for is right to 1e-6 relative to itself, or to the accuracy
-/// of [`svd`](crate::svd), a few `eps sigma_1`, where that is more. The smaller of the two correlation matrices is formed first, in time
-/// ([`method_of_snapshots`](crate::method_of_snapshots)) or, where there are fewer unknowns than
-/// snapshots, in space ([`direct`](crate::direct)), and its own eigenvalues tell whether it reaches
-/// that; otherwise [`svd`](crate::svd) does. The first of the [`notes`](ReducedBasis::notes) says
-/// which was taken and why.
+/// of [`svd`](crate::svd), a few `eps sigma_1`, where that is more. The smaller of the two correlation
+/// matrices is formed first, in time ([`method_of_snapshots`](crate::method_of_snapshots)) or, where
+/// there are fewer unknowns than snapshots, in space ([`direct`](crate::direct)), and its own
+/// eigenvalues tell whether it reaches that. Otherwise the correlation in time goes on into
+/// [`svd`](crate::svd). The first of the [`notes`](Decomposition::notes) says which was taken and why.
 ///
 /// # Errors
 /// Those of the algorithms it takes.
@@ -23,37 +26,70 @@ pub fn auto(
     w: &dyn InnerProduct,
     options: &Options,
 ) -> Result<ReducedBasis, PodError> {
-    let ensemble = Ensemble::new(x, w, options)?;
-    let (unknowns, snapshots) = ensemble.shape();
-    let (smallest, bound);
-    let mut basis = if unknowns < snapshots {
-        let spatial = correlation_in_space(&ensemble)?;
-        (smallest, bound) =
-            (smallest_asked(&spatial.spectrum, options), exact_down_to(&spatial.spectrum));
-        if smallest < bound { by_svd(&ensemble) } else { finish_in_space(&ensemble, spatial) }
+    super::in_memory(stream, x, w, options)
+}
+
+pub(super) fn stream(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+    execution: Execution<'_>,
+    modes: &dyn ModeStore,
+) -> Result<Decomposition, PodError> {
+    let (unknowns, snapshots) = (x.dim(), x.times().len());
+    if unknowns < snapshots && unknowns > 0 && execution.ranks.count() == 1 {
+        let space = direct::Space::new(x, w, options)?;
+        let spatial = direct::correlation_in_space(&space)?;
+        let choice = Choice::of(&spatial.spectrum, options);
+        if choice.is_exact() {
+            let found = direct::finish_in_space(&space, modes, spatial)?;
+            return Ok(choice.noted(found));
+        }
+    }
+    super::with_rows(x, w, options, execution, modes, &|run| in_time(run, options))
+}
+
+fn in_time(run: &Run<'_>, options: &Options) -> Result<Decomposition, PodError> {
+    let first = correlation(run, "correlation", None)?;
+    let temporal = eigenvectors(run, &first)?;
+    let choice = Choice::of(&temporal.spectrum, options);
+    let found = if choice.is_exact() {
+        lift("snapshots", run, temporal)
     } else {
-        let temporal = correlation_in_time(&ensemble)?;
-        (smallest, bound) =
-            (smallest_asked(&temporal.spectrum, options), exact_down_to(&temporal.spectrum));
-        if smallest < bound { by_svd(&ensemble) } else { lift("snapshots", &ensemble, temporal) }
-    }?;
-    basis.notes.insert(0, Note::Chosen { algorithm: basis.algorithm, smallest, bound });
-    Ok(basis)
+        let (_, m) = run.ensemble.shape();
+        lift("svd", run, bi_orthogonal(run, first, m as f64 * f64::EPSILON / (2.0 * TOLERANCE))?)
+    };
+    Ok(choice.noted(found?))
 }
 
-fn by_svd(ensemble: &Ensemble<'_>) -> Result<ReducedBasis, PodError> {
-    lift("svd", ensemble, bi_orthogonal(ensemble)?)
+/// Relative error that a singular value asked for may have.
+const TOLERANCE: f64 = 1e-6;
+
+/// What a correlation matrix says of itself.
+struct Choice {
+    /// Least eigenvalue asked for, relative to the first; zero where more are asked for than exist.
+    smallest: f64,
+    /// Least eigenvalue, relative to the first, whose root a correlation matrix gives to the
+    /// tolerance: half of what squaring loses, relative to the root.
+    bound: f64,
 }
 
-/// Least eigenvalue asked for, relative to the first; zero where more are asked for than exist.
-fn smallest_asked(spectrum: &Spectrum, options: &Options) -> f64 {
-    let asked = spectrum.asked(options.truncation);
-    spectrum.values.get(asked - 1).map_or(0.0, |l| l / spectrum.values[0])
-}
+impl Choice {
+    fn of(spectrum: &Spectrum, options: &Options) -> Self {
+        let (asked, first) = (spectrum.asked(options.truncation), spectrum.values[0]);
+        Self {
+            smallest: spectrum.values.get(asked - 1).map_or(0.0, |l| l / first),
+            bound: spectrum.squaring.unwrap_or(0.0) / first / (2.0 * TOLERANCE),
+        }
+    }
 
-/// Least eigenvalue, relative to the first, whose root a correlation matrix gives to 1e-6: half of
-/// what squaring loses, relative to the root.
-fn exact_down_to(spectrum: &Spectrum) -> f64 {
-    const TOLERANCE: f64 = 1e-6;
-    spectrum.squaring.unwrap_or(0.0) / spectrum.values[0] / (2.0 * TOLERANCE)
+    fn is_exact(&self) -> bool {
+        self.smallest >= self.bound
+    }
+
+    fn noted(&self, mut found: Decomposition) -> Decomposition {
+        let (algorithm, &Self { smallest, bound }) = (found.algorithm, self);
+        found.notes.insert(0, Note::Chosen { algorithm, smallest, bound });
+        found
+    }
 }

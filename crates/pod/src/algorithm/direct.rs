@@ -1,9 +1,18 @@
-use super::lift::{Parts, finish};
-use crate::ensemble::Ensemble;
-use crate::product::{Columns, add_symmetric, block, mirror, panels, transposed_product};
+use super::finish::{Parts, finish};
+use super::raw::Residual;
+use crate::correlation::mirror;
+use crate::dense::{self, product};
+use crate::ensemble::{Ensemble, check_dimensions, read_checked};
+use crate::kernel::add_gram;
+use crate::mean::Mean;
+use crate::partial::extreme;
+use crate::partition::Partition;
 use crate::spectrum::Spectrum;
-use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense};
-use faer::Mat;
+use crate::{
+    Decomposition, Execution, InnerProduct, ModeStore, Options, PodError, Reach, ReducedBasis,
+    SnapshotSource,
+};
+use faer::{Mat, Scale};
 use std::ops::Range;
 
 /// POD by the classical direct method, paper eqs. (2)-(3) (Lumley, 1967).
@@ -15,9 +24,9 @@ use std::ops::Range;
 /// F R F⁻¹ = (1/M) (F X) (F X)ᵀ,   F R F⁻¹ psi = lambda psi,   Phi = F⁻¹ psi
 /// ```
 ///
-/// Cost M n² + n³ flops, on one thread: for few unknowns and many snapshots, as in experiments.
-/// It squares the condition number: modes with `lambda <= n eps lambda_1` are noise and are left
-/// out, with a [`Note`](crate::Note).
+/// Cost M n² + n³ flops, on one thread of one machine: for few unknowns and many snapshots, as in
+/// experiments. It squares the condition number: modes with `lambda <= n eps lambda_1` are noise and
+/// are left out, with a [`Note`](crate::Note).
 ///
 /// # Errors
 /// Every variant of [`PodError`] but those about other algorithms; [`PodError::Memory`] where the
@@ -36,8 +45,30 @@ pub fn direct(
     w: &dyn InnerProduct,
     options: &Options,
 ) -> Result<ReducedBasis, PodError> {
-    let ensemble = Ensemble::new(x, w, options)?;
-    finish_in_space(&ensemble, correlation_in_space(&ensemble)?)
+    super::in_memory(stream, x, w, options)
+}
+
+pub(super) fn stream(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+    execution: Execution<'_>,
+    modes: &dyn ModeStore,
+) -> Result<Decomposition, PodError> {
+    if execution.ranks.count() > 1 {
+        return Err(PodError::WholeColumns { ranks: execution.ranks.count() });
+    }
+    let space = Space::new(x, w, options)?;
+    let spatial = correlation_in_space(&space)?;
+    finish_in_space(&space, modes, spatial)
+}
+
+/// Snapshots of few unknowns, read by whole columns.
+pub(super) struct Space<'a> {
+    ensemble: Ensemble<'a>,
+    mean: Option<Mean>,
+    /// `|F <u>|²` of the mean that is subtracted.
+    steady: f64,
 }
 
 /// Eigenvalues and eigenvectors `psi`, n x n, of the correlation in space.
@@ -46,49 +77,134 @@ pub(super) struct Spatial {
     psi: Mat<f64>,
 }
 
-pub(super) fn correlation_in_space(ensemble: &Ensemble<'_>) -> Result<Spatial, PodError> {
-    let (n, m) = ensemble.shape();
-    let remedy = "take `snapshots` or `svd`, or raise the limit";
-    ensemble.check_memory("the n x n correlation", 3 * 8 * (n as u128).pow(2), remedy)?;
+impl<'a> Space<'a> {
+    pub fn new(
+        x: &'a dyn SnapshotSource,
+        w: &'a dyn InnerProduct,
+        options: &'a Options,
+    ) -> Result<Self, PodError> {
+        check_dimensions(x, w)?;
+        let (n, limit) = (x.dim(), options.memory_limit);
+        let bytes = 3 * 8 * (n as u128).pow(2);
+        if bytes > u128::from(limit) {
+            let remedy = "take `snapshots` or `svd`, or raise the limit";
+            return Err(PodError::Memory { what: "the n x n correlation", bytes, limit, remedy });
+        }
+        let mut space = Self { ensemble: Ensemble::new(x, w, options)?, mean: None, steady: 0.0 };
+        if options.center {
+            let mean = space.time_mean()?;
+            let mut u = Mat::from_fn(n, 1, |i, _| mean.field[i]);
+            w.factor(0..n, u.as_mut())?;
+            (space.mean, space.steady) = (Some(mean), u.squared_norm_l2());
+        }
+        if w.reach() == Reach::All {
+            space.ensemble.amplified = space.amplified()?;
+        }
+        Ok(space)
+    }
+
+    fn time_mean(&self) -> Result<Mean, PodError> {
+        let (n, m) = self.ensemble.shape();
+        let mut mean = Mean::default();
+        for rows in Partition::pieces(0..n, self.ensemble.partition.block()) {
+            let mut x = Mat::zeros(rows.len(), m);
+            read_checked(self.ensemble.source, rows, 0..m, x.as_mut())?;
+            mean.extend(Mean::new(x.as_ref(), &self.ensemble.time_weights));
+        }
+        Ok(mean)
+    }
+
+    /// `sum_i W_ii <u_i²>`.
+    fn amplified(&self) -> Result<f64, PodError> {
+        let (n, m) = self.ensemble.shape();
+        let diagonal = self.ensemble.product.diagonal()?;
+        let mut energy = 0.0;
+        for cols in panels(m) {
+            let mut x = Mat::zeros(n, cols.len());
+            read_checked(self.ensemble.source, 0..n, cols, x.as_mut())?;
+            for u in x.col_iter() {
+                energy += u.iter().zip(&diagonal).map(|(u, w)| w * u * u).sum::<f64>();
+            }
+        }
+        Ok(energy / m as f64)
+    }
+
+    /// `F X` of some columns.
+    fn weighted(&self, cols: Range<usize>) -> Result<Mat<f64>, PodError> {
+        let (n, _) = self.ensemble.shape();
+        let mut z = Mat::zeros(n, cols.len());
+        read_checked(self.ensemble.source, 0..n, cols.clone(), z.as_mut())?;
+        self.ensemble.prepare(self.mean.as_ref(), cols, z.as_mut());
+        self.ensemble.product.factor(0..n, z.as_mut())?;
+        Ok(z)
+    }
+}
+
+/// Columns in groups of at most 64, for what needs whole columns.
+fn panels(columns: usize) -> impl Iterator<Item = Range<usize>> {
+    Partition::pieces(0..columns, 64)
+}
+
+pub(super) fn correlation_in_space(space: &Space<'_>) -> Result<Spatial, PodError> {
+    let (n, m) = space.ensemble.shape();
     let mut correlation = Mat::zeros(n, n);
     for cols in panels(m) {
-        add_symmetric(correlation.as_mut(), weighted(ensemble, cols)?.as_ref());
+        let across = space.weighted(cols)?.transpose().to_owned();
+        add_gram(correlation.as_mut(), across.as_ref());
     }
     mirror(&mut correlation);
-    correlation *= faer::Scale(1.0 / m as f64);
+    correlation *= Scale(1.0 / m as f64);
     let (mut lambda, psi) = dense::eigen_descending(correlation.as_ref())?;
     lambda.truncate(n.min(m));
     let squaring = n as f64 * f64::EPSILON * lambda[0];
-    Ok(Spatial { spectrum: ensemble.spectrum(lambda, Some(squaring))?, psi })
+    let spectrum = space.ensemble.spectrum(lambda, space.steady, Some(squaring))?;
+    Ok(Spatial { spectrum, psi })
 }
 
 pub(super) fn finish_in_space(
-    ensemble: &Ensemble<'_>,
+    space: &Space<'_>,
+    modes: &dyn ModeStore,
     spatial: Spatial,
-) -> Result<ReducedBasis, PodError> {
+) -> Result<Decomposition, PodError> {
     let Spatial { spectrum, psi } = spatial;
-    let (kept, note) = spectrum.keep(ensemble.options.truncation);
-    let mut modes = psi.subcols(0, kept).to_owned();
-    let coefficients = coefficients(ensemble, &modes)?;
-    ensemble.product.unfactor(0, modes.as_mut());
-    Ok(finish("direct", ensemble, spectrum, Parts { modes, coefficients, note }))
-}
-
-/// `(u, Phi) = (F u)ᵀ psi`.
-fn coefficients(ensemble: &Ensemble<'_>, psi: &Mat<f64>) -> Result<Mat<f64>, PodError> {
-    let (_, m) = ensemble.shape();
-    let mut a = Mat::zeros(psi.ncols(), m);
-    for cols in panels(m) {
-        let z = weighted(ensemble, cols.clone())?;
-        let of_panel = transposed_product(psi.as_ref(), z.as_ref());
-        a.subcols_mut(cols.start, cols.len()).copy_from(of_panel);
+    let ((n, _), w) = (space.ensemble.shape(), space.ensemble.product);
+    let (kept, note) = spectrum.keep(space.ensemble.options.truncation);
+    let psi = psi.subcols(0, kept).to_owned();
+    let (mut coefficients, residual) = coefficients(space, &psi)?;
+    let mut phi = psi;
+    w.unfactor(phi.as_mut())?;
+    for k in 0..kept {
+        let sign = phi.col(k).iter().fold(0.0, |a, b| extreme(a, *b)).signum();
+        phi.col_mut(k).iter_mut().for_each(|x| *x *= sign);
+        coefficients.row_mut(k).iter_mut().for_each(|a| *a *= sign);
     }
-    Ok(a)
+    let mean = space.mean.as_ref().map(|mean| mean.field.as_slice());
+    modes.begin(n, kept, mean.is_some())?;
+    modes.publish(0..n, phi.as_ref(), mean)?;
+    let parts = Parts { coefficients, note, residual, passes: 2 };
+    Ok(finish("direct", &space.ensemble, spectrum, parts))
 }
 
-/// `F X` of some columns.
-fn weighted(ensemble: &Ensemble<'_>, cols: Range<usize>) -> Result<Mat<f64>, PodError> {
-    let mut z = block(ensemble, 0..ensemble.shape().0, cols)?;
-    ensemble.product.factor(0, z.as_mut());
-    Ok(z)
+/// `(u, Phi) = (F u)ᵀ psi`, and what the modes leave of each snapshot where that is asked for.
+fn coefficients(space: &Space<'_>, psi: &Mat<f64>) -> Result<(Mat<f64>, Residual), PodError> {
+    let (n, m) = space.ensemble.shape();
+    let mut mean = Mat::zeros(n, 1);
+    if let Some(of_rows) = &space.mean {
+        mean.col_mut(0).iter_mut().zip(&of_rows.field).for_each(|(to, u)| *to = *u);
+        space.ensemble.product.factor(0..n, mean.as_mut())?;
+    }
+    let (mut a, mut residual) = (Mat::zeros(psi.ncols(), m), Residual::default());
+    for cols in panels(m) {
+        let z = space.weighted(cols.clone())?;
+        let of_panel = product(psi.transpose(), z.as_ref());
+        a.subcols_mut(cols.start, cols.len()).copy_from(&of_panel);
+        if space.ensemble.options.residuals {
+            let left = &z - product(psi.as_ref(), of_panel.as_ref());
+            residual.left.extend(left.col_iter().map(|e| e.squared_norm_l2()));
+            let whole = z.col_iter().zip(&space.ensemble.scale[cols]);
+            let whole = whole.map(|(z, s)| (z + mean.col(0) * Scale(*s)).squared_norm_l2());
+            residual.whole.extend(whole);
+        }
+    }
+    Ok((a, residual))
 }

@@ -1,7 +1,12 @@
-use super::lift::{Temporal, lift};
-use crate::ensemble::Ensemble;
-use crate::product::{Columns, gram};
-use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense};
+use super::lift::lift;
+use crate::correlation::{Correlation, correlation};
+use crate::run::Run;
+use crate::spectrum::Spectrum;
+use crate::{
+    Decomposition, Execution, InnerProduct, ModeStore, Options, PodError, ReducedBasis,
+    SnapshotSource, dense,
+};
+use faer::{Mat, MatRef, Scale};
 
 /// POD by the method of snapshots, paper eqs. (9)-(10) (Sirovich, 1987).
 ///
@@ -9,8 +14,8 @@ use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense
 /// C_ik = (u_i, u_k)/M,   C c = lambda c,   Phi_n = sum_k c_k u_k / sqrt(M lambda_n)
 /// ```
 ///
-/// Cost n M² + M³ flops and two passes over the snapshots; where the inner product couples rows,
-/// one more, and one for every 64 snapshots after the first 64. The correlation matrix squares the
+/// Cost n M² + M³ flops and two passes over the snapshots; where the inner product couples all
+/// rows, one weighted copy of the snapshots is held in memory. The correlation matrix squares the
 /// condition number: modes with `lambda <= M eps lambda_1`, or `8 eps sum_i W_ii <u_i²>` where
 /// coupled rows make that larger, are noise and are left out, with a [`Note`](crate::Note). An
 /// eigenvalue has an error of up to that.
@@ -31,22 +36,40 @@ pub fn method_of_snapshots(
     w: &dyn InnerProduct,
     options: &Options,
 ) -> Result<ReducedBasis, PodError> {
-    let ensemble = Ensemble::new(x, w, options)?;
-    lift("snapshots", &ensemble, correlation_in_time(&ensemble)?)
+    super::in_memory(stream, x, w, options)
 }
 
-pub(super) fn correlation_in_time(ensemble: &Ensemble<'_>) -> Result<Temporal, PodError> {
-    let (n, m) = ensemble.shape();
-    let remedy = "take fewer snapshots or raise the limit; `direct` is smaller where n < M";
-    ensemble.check_memory(
-        "the correlation of the snapshots",
-        3 * 8 * (m as u128).pow(2),
-        remedy,
-    )?;
-    let mut correlation = gram(ensemble, ensemble.product, ensemble.options.par)?;
-    correlation *= faer::Scale(1.0 / m as f64);
-    let (mut lambda, vectors) = dense::eigen_descending(correlation.as_ref())?;
-    lambda.truncate(n.min(m));
-    let squaring = ensemble.squaring(&lambda);
-    Ok(Temporal { spectrum: ensemble.spectrum(lambda, Some(squaring))?, vectors })
+pub(super) fn stream(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+    execution: Execution<'_>,
+    modes: &dyn ModeStore,
+) -> Result<Decomposition, PodError> {
+    super::with_rows(x, w, options, execution, modes, &|run| {
+        let first = correlation(run, "correlation", None)?;
+        lift("snapshots", run, eigenvectors(run, &first)?)
+    })
+}
+
+/// Eigenvalues and eigenvectors of the correlation in time, or singular values and right
+/// singular vectors: the same thing.
+pub(super) struct Temporal {
+    pub spectrum: Spectrum,
+    /// M x k, one column for each eigenvalue.
+    pub vectors: Mat<f64>,
+}
+
+pub(super) fn eigenvectors(run: &Run<'_>, correlation: &Correlation) -> Result<Temporal, PodError> {
+    let (n, m) = run.ensemble.shape();
+    let found = run.from_first(|| {
+        let matrix = &correlation.matrix * Scale(1.0 / m as f64);
+        let (lambda, vectors) = dense::eigen_descending(matrix.as_ref())?;
+        Ok(lambda.into_iter().chain(vectors.col_iter().flat_map(|v| v.iter().copied())).collect())
+    })?;
+    let (lambda, vectors) = found.split_at(m);
+    let lambda = lambda[..m.min(n)].to_vec();
+    let squaring = run.ensemble.squaring(&lambda);
+    let spectrum = run.ensemble.spectrum(lambda, correlation.steady, Some(squaring))?;
+    Ok(Temporal { spectrum, vectors: MatRef::from_column_major_slice(vectors, m, m).to_owned() })
 }

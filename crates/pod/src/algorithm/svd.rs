@@ -1,19 +1,32 @@
-use super::lift::{Temporal, lift};
-use crate::ensemble::Ensemble;
-use crate::product::{Columns, factor_bytes, factor_of_weighted};
-use crate::{InnerProduct, Options, PodError, ReducedBasis, SnapshotSource, dense};
+use super::lift::lift;
+use super::snapshots::Temporal;
+use crate::correlation::{Correlation, Preconditioner, correlation};
+use crate::dense::{self, PivotedCholesky, product};
+use crate::kernel::Substitution;
+use crate::run::Run;
+use crate::{
+    Decomposition, Execution, InnerProduct, ModeStore, Options, PodError, ReducedBasis,
+    SnapshotSource,
+};
+use faer::{Mat, MatRef};
 
 /// The bi-orthogonal decomposition (Aubry, 1991; Hemon and Santi, 2003), exact.
 ///
 /// ```text
-/// F X = Q R,   R = U Sigma Vᵀ,   Phi_n = X v_n / sigma_n,   lambda_n = sigma_n² / M
+/// F X = Q A,   A = U Sigma Vᵀ,   Phi_n = X v_n / sigma_n,   lambda_n = sigma_n² / M
 /// ```
 ///
-/// R comes from Householder reflections of blocks of rows (TSQR), so that nothing is squared:
-/// singular values are right to a few `eps sigma_1` on any spectrum. Where the inner product
-/// couples rows, entries that are right to `eps` of themselves leave an error of
-/// `4 eps sqrt(M sum_i W_ii <u_i²>)` instead. Cost 2 n M² flops and two passes over the snapshots;
-/// where rows are coupled, a third, and one weighted copy of the snapshots is held in memory.
+/// A comes from two Gram matrices. The pivoted Cholesky factor of the first tells the columns apart
+/// as far as squares can (to 1e-8 of each), and makes of them nearly orthogonal columns
+/// `Y = F X P U⁻¹`, formed block by block; what the first could not tell apart is small in Y, hence
+/// known to another 1e-8 of that from the second, `Yᵀ Y = Rᵀ R`, and `A = R U Pᵀ`. Where all columns are far from
+/// dependent the first is enough. Errors are relative to each column of X: singular values are right to
+/// a few `eps sigma_1` on any spectrum, and to `eps` of themselves where it is the columns that
+/// are graded, as in a decaying transient. Where the inner product couples all rows, entries that
+/// are right to `eps` of themselves leave an error of `4 eps sqrt(M sum_i W_ii <u_i²>)` instead.
+///
+/// Cost 3 n M² flops and three passes over the snapshots; where the inner product couples all
+/// rows, one weighted copy of the snapshots is held in memory.
 ///
 /// # Errors
 /// Every variant of [`PodError`] but those about other algorithms.
@@ -31,17 +44,88 @@ pub fn svd(
     w: &dyn InnerProduct,
     options: &Options,
 ) -> Result<ReducedBasis, PodError> {
-    let ensemble = Ensemble::new(x, w, options)?;
-    lift("svd", &ensemble, bi_orthogonal(&ensemble)?)
+    super::in_memory(stream, x, w, options)
 }
 
-pub(super) fn bi_orthogonal(ensemble: &Ensemble<'_>) -> Result<Temporal, PodError> {
-    let (n, m) = ensemble.shape();
-    let bytes = factor_bytes(n, m, ensemble.product.couples_rows());
-    let remedy = "raise the limit, or take `snapshots`, which holds less and resolves less";
-    ensemble.check_memory("the triangular factor of the snapshots", bytes, remedy)?;
-    let r = factor_of_weighted(ensemble, ensemble.product, ensemble.options.par)?;
-    let (sigma, vectors) = dense::right_svd(r.as_ref())?;
-    let lambda: Vec<f64> = sigma.iter().map(|s| s * s / m as f64).collect();
-    Ok(Temporal { spectrum: ensemble.spectrum(lambda, None)?, vectors })
+pub(super) fn stream(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+    execution: Execution<'_>,
+    modes: &dyn ModeStore,
+) -> Result<Decomposition, PodError> {
+    super::with_rows(x, w, options, execution, modes, &|run| {
+        let first = correlation(run, "correlation", None)?;
+        lift("svd", run, bi_orthogonal(run, first, WELL_CONDITIONED)?)
+    })
+}
+
+/// Least eigenvalue of the Gram matrix of columns of norm one with which its factor is right to a few eps.
+const WELL_CONDITIONED: f64 = 0.05;
+
+/// Singular values and right singular vectors, from the correlation and as many further passes as it
+/// takes.
+///
+/// * `sufficient`: least eigenvalue of the Gram matrix of columns of norm one with which the first
+///   correlation is enough; its singular values are then right to `M eps` over twice this
+pub(super) fn bi_orthogonal(
+    run: &Run<'_>,
+    first: Correlation,
+    sufficient: f64,
+) -> Result<Temporal, PodError> {
+    let (n, m) = run.ensemble.shape();
+    let a = triangular(run, &first, sufficient)?;
+    let found = run.from_first(|| {
+        let (sigma, vectors) = dense::right_svd(a.as_ref())?;
+        let lambda = sigma.iter().map(|s| s * s / m as f64);
+        Ok(lambda.chain(vectors.col_iter().flat_map(|v| v.iter().copied())).collect())
+    })?;
+    let (lambda, vectors) = found.split_at(m);
+    let spectrum = run.ensemble.spectrum(lambda[..m.min(n)].to_vec(), first.steady, None)?;
+    Ok(Temporal { spectrum, vectors: MatRef::from_column_major_slice(vectors, m, m).to_owned() })
+}
+
+/// A with `Aᵀ A = Xᵀ W X`, not squared.
+fn triangular(run: &Run<'_>, first: &Correlation, sufficient: f64) -> Result<Mat<f64>, PodError> {
+    let (n, m) = run.ensemble.shape();
+    // Round-off of sums over many rows and eliminations over many columns adds up as noise does.
+    let floor = 8.0 * f64::EPSILON * (m as f64).sqrt();
+    let coarse = PivotedCholesky::new(first.matrix.as_ref(), floor);
+    let enough = run.from_first(|| {
+        let all = coarse.resolved == m.min(n) && m <= n;
+        Ok(vec![f64::from(u8::from(all && least_angle(&coarse, sufficient)? >= sufficient))])
+    })?;
+    if enough == [1.0] {
+        return Ok(in_original_order(coarse.factor().as_ref(), &coarse.order));
+    }
+    let substitution = Substitution::new(coarse.unit.as_ref());
+    let preconditioner = Preconditioner { order: coarse.order, substitution };
+    let second = correlation(run, "refinement", Some(&preconditioner))?;
+    let fine = PivotedCholesky::new(second.matrix.as_ref(), 4.0 * f64::EPSILON);
+    let unit = Mat::from_fn(m, m, |i, j| coarse.unit[(fine.order[i], j)]);
+    let a = product(fine.factor().as_ref(), unit.as_ref());
+    Ok(in_original_order(a.as_ref(), &preconditioner.order))
+}
+
+/// Least eigenvalue of the Gram matrix of the columns scaled to norm one; zero where a pivot already
+/// tells that it is less than `sufficient`.
+fn least_angle(cholesky: &PivotedCholesky, sufficient: f64) -> Result<f64, PodError> {
+    let factor = cholesky.factor();
+    let norms: Vec<f64> = factor.col_iter().map(|column| column.norm_l2()).collect();
+    if cholesky.scale.iter().zip(&norms).any(|(d, norm)| d * d < sufficient * norm * norm) {
+        return Ok(0.0);
+    }
+    let unit = Mat::from_fn(factor.nrows(), factor.ncols(), |i, j| factor[(i, j)] / norms[j]);
+    let (eigenvalues, _) =
+        dense::eigen_descending(product(unit.transpose(), unit.as_ref()).as_ref())?;
+    Ok(eigenvalues.last().copied().unwrap_or(0.0))
+}
+
+/// The columns `a P` where `order` tells P.
+fn in_original_order(a: MatRef<'_, f64>, order: &[usize]) -> Mat<f64> {
+    let mut original = Mat::zeros(a.nrows(), a.ncols());
+    for (from, &to) in a.col_iter().zip(order) {
+        original.col_mut(to).copy_from(from);
+    }
+    original
 }

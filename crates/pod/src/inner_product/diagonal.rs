@@ -1,5 +1,7 @@
-use super::{InnerProduct, InnerProductError};
+use super::{InnerProduct, InnerProductError, Reach};
 use faer::MatMut;
+use std::io;
+use std::ops::Range;
 
 /// A weight for each unknown, W = diag(w): cell volumes, or a lumped mass matrix.
 ///
@@ -7,9 +9,9 @@ use faer::MatMut;
 /// use lumley_pod::{Diagonal, InnerProduct};
 /// let w = Diagonal::new(vec![0.25, 4.0])?;
 /// let mut x = faer::mat![[2.0], [2.0]];
-/// w.factor(0, x.as_mut());
+/// w.factor(0..2, x.as_mut())?;
 /// assert_eq!(x, faer::mat![[1.0], [4.0]]);
-/// # Ok::<(), lumley_pod::InnerProductError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagonal {
@@ -37,24 +39,27 @@ impl InnerProduct for Diagonal {
         self.weights.len()
     }
 
-    fn couples_rows(&self) -> bool {
-        false
+    fn reach(&self) -> Reach {
+        Reach::Rows(0)
     }
 
-    fn diagonal(&self) -> Vec<f64> {
-        self.weights.clone()
+    fn diagonal(&self) -> io::Result<Vec<f64>> {
+        Ok(self.weights.clone())
     }
 
-    fn apply(&self, first: usize, x: MatMut<'_, f64>) {
-        update_rows(&self.weights[first..], x, |x, w| x * w);
+    fn apply(&self, x: MatMut<'_, f64>) -> io::Result<()> {
+        update_rows(&self.weights, x, |x, w| x * w);
+        Ok(())
     }
 
-    fn factor(&self, first: usize, x: MatMut<'_, f64>) {
-        update_rows(&self.roots[first..], x, |x, root| x * root);
+    fn factor(&self, rows: Range<usize>, x: MatMut<'_, f64>) -> io::Result<()> {
+        update_rows(&self.roots[rows], x, |x, root| x * root);
+        Ok(())
     }
 
-    fn unfactor(&self, first: usize, x: MatMut<'_, f64>) {
-        update_rows(&self.roots[first..], x, |x, root| x / root);
+    fn unfactor(&self, x: MatMut<'_, f64>) -> io::Result<()> {
+        update_rows(&self.roots, x, |x, root| x / root);
+        Ok(())
     }
 }
 

@@ -1,5 +1,7 @@
-use super::InnerProduct;
+use super::{InnerProduct, Reach};
 use faer::MatMut;
+use std::io;
+use std::ops::Range;
 
 /// The Euclidean inner product, W = I.
 ///
@@ -24,17 +26,23 @@ impl InnerProduct for Identity {
         self.dim
     }
 
-    fn couples_rows(&self) -> bool {
-        false
+    fn reach(&self) -> Reach {
+        Reach::Rows(0)
     }
 
-    fn diagonal(&self) -> Vec<f64> {
-        vec![1.0; self.dim]
+    fn diagonal(&self) -> io::Result<Vec<f64>> {
+        Ok(vec![1.0; self.dim])
     }
 
-    fn apply(&self, _first: usize, _x: MatMut<'_, f64>) {}
+    fn apply(&self, _x: MatMut<'_, f64>) -> io::Result<()> {
+        Ok(())
+    }
 
-    fn factor(&self, _first: usize, _x: MatMut<'_, f64>) {}
+    fn factor(&self, _rows: Range<usize>, _x: MatMut<'_, f64>) -> io::Result<()> {
+        Ok(())
+    }
 
-    fn unfactor(&self, _first: usize, _x: MatMut<'_, f64>) {}
+    fn unfactor(&self, _x: MatMut<'_, f64>) -> io::Result<()> {
+        Ok(())
+    }
 }

@@ -4,50 +4,93 @@ mod cholesky;
 mod diagonal;
 mod error;
 mod identity;
+mod kronecker;
 mod sparse;
 
 pub use diagonal::Diagonal;
 pub use error::InnerProductError;
 pub use identity::Identity;
+pub use kronecker::{Kronecker, Tridiagonal};
 pub use sparse::SparseSpd;
 
 use faer::MatMut;
+use std::io;
+use std::ops::Range;
+
+/// Which rows of x a row of `F x` depends on.
+///
+/// ```
+/// use lumley_pod::{Identity, InnerProduct, Reach};
+/// assert_eq!(Identity::new(3).reach(), Reach::Rows(0));
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// Row i and at most this many rows after it: x can be read by blocks of rows.
+    Rows(usize),
+    /// All rows: only whole columns have a factor.
+    All,
+}
 
 /// The inner product `(u, v) = uᵀ W v` of the space in which the modes are orthonormal, paper eq. (6).
 ///
-/// `W = Fᵀ F` is symmetric positive definite. The three operations work in place on the rows
-/// `first..first + x.nrows()` of a block of columns. Where W ties rows together
-/// ([`couples_rows`](Self::couples_rows)) these rows are always all of them: only whole columns
-/// have a product then, and what reads by blocks of rows must know.
+/// `W = Fᵀ F` is symmetric positive definite. The operations work in place on a block of columns
+/// and may read weights from a file, hence fail as files do.
 ///
 /// ```
 /// use faer::{MatMut, Scale};
-/// use lumley_pod::InnerProduct;
+/// use lumley_pod::{InnerProduct, Reach};
+/// use std::{io, ops::Range};
 /// /// A uniform grid of n cells of area 0.25 m².
 /// struct Uniform(usize);
 /// impl InnerProduct for Uniform {
 ///     fn dim(&self) -> usize { self.0 }
-///     fn couples_rows(&self) -> bool { false }
-///     fn diagonal(&self) -> Vec<f64> { vec![0.25; self.0] }
-///     fn apply(&self, _: usize, mut x: MatMut<'_, f64>) { x *= Scale(0.25); }
-///     fn factor(&self, _: usize, mut x: MatMut<'_, f64>) { x *= Scale(0.5); }
-///     fn unfactor(&self, _: usize, mut x: MatMut<'_, f64>) { x *= Scale(2.0); }
+///     fn reach(&self) -> Reach { Reach::Rows(0) }
+///     fn diagonal(&self) -> io::Result<Vec<f64>> { Ok(vec![0.25; self.0]) }
+///     fn apply(&self, mut x: MatMut<'_, f64>) -> io::Result<()> { x *= Scale(0.25); Ok(()) }
+///     fn factor(&self, _: Range<usize>, mut x: MatMut<'_, f64>) -> io::Result<()> {
+///         x *= Scale(0.5);
+///         Ok(())
+///     }
+///     fn unfactor(&self, mut x: MatMut<'_, f64>) -> io::Result<()> { x *= Scale(2.0); Ok(()) }
 /// }
 /// let mut x = faer::mat![[2.0], [4.0]];
-/// Uniform(2).factor(0, x.as_mut());
+/// Uniform(2).factor(0..2, x.as_mut())?;
 /// assert_eq!(x, faer::mat![[1.0], [2.0]]);
+/// # Ok::<(), io::Error>(())
 /// ```
 pub trait InnerProduct: Sync {
     /// Length n of a snapshot.
     fn dim(&self) -> usize;
-    /// Whether a row of `W x` depends on other rows of `x`.
-    fn couples_rows(&self) -> bool;
+    /// Which rows of x a row of `F x` depends on.
+    fn reach(&self) -> Reach;
     /// The n entries `W_ii`, which say how much energy a small error of each unknown has.
-    fn diagonal(&self) -> Vec<f64>;
-    /// `x <- W x`.
-    fn apply(&self, first: usize, x: MatMut<'_, f64>);
-    /// `x <- F x`: the exact routes need it.
-    fn factor(&self, first: usize, x: MatMut<'_, f64>);
-    /// `x <- F⁻¹ x`.
-    fn unfactor(&self, first: usize, x: MatMut<'_, f64>);
+    ///
+    /// # Errors
+    /// The failure of the medium that holds the weights.
+    fn diagonal(&self) -> io::Result<Vec<f64>>;
+    /// `x <- W x` for whole columns.
+    ///
+    /// # Errors
+    /// The failure of the medium that holds the weights.
+    fn apply(&self, x: MatMut<'_, f64>) -> io::Result<()>;
+    /// The `rows` of `F x`: they take the place of the first rows of `x`, which holds the same
+    /// rows and as many after them as [`reach`](Self::reach) says and there are. What is left in
+    /// those after them is of no use.
+    ///
+    /// # Errors
+    /// The failure of the medium that holds the weights.
+    fn factor(&self, rows: Range<usize>, x: MatMut<'_, f64>) -> io::Result<()>;
+    /// `x <- F⁻¹ x` for whole columns.
+    ///
+    /// # Errors
+    /// The failure of the medium that holds the weights.
+    fn unfactor(&self, x: MatMut<'_, f64>) -> io::Result<()>;
+}
+
+/// The rows of x that must be read for `rows` of `F x`.
+pub(crate) fn support(product: &dyn InnerProduct, rows: &Range<usize>) -> Range<usize> {
+    match product.reach() {
+        Reach::Rows(after) => rows.start..(rows.end + after).min(product.dim()),
+        Reach::All => 0..product.dim(),
+    }
 }

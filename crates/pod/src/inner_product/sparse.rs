@@ -1,7 +1,9 @@
 use super::cholesky::cholesky;
-use super::{InnerProduct, InnerProductError};
+use super::{InnerProduct, InnerProductError, Reach};
 use faer::MatMut;
 use faer::sparse::{CreationError, SparseColMat, Triplet};
+use std::io;
+use std::ops::Range;
 
 /// A sparse symmetric positive definite W, such as a finite-element mass matrix.
 ///
@@ -14,9 +16,9 @@ use faer::sparse::{CreationError, SparseColMat, Triplet};
 /// // The mass matrix of one linear element of length 6.
 /// let w = SparseSpd::from_triplets(2, &[(0, 0, 2.0), (0, 1, 1.0), (1, 0, 1.0), (1, 1, 2.0)])?;
 /// let mut x = faer::mat![[1.0], [1.0]];
-/// w.apply(0, x.as_mut());
+/// w.apply(x.as_mut())?;
 /// assert_eq!(x, faer::mat![[3.0], [3.0]]);
-/// # Ok::<(), lumley_pod::InnerProductError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct SparseSpd {
@@ -58,9 +60,8 @@ impl SparseSpd {
     }
 
     /// Replaces each column, which `f` computes from the old one.
-    fn by_column(&self, first: usize, mut x: MatMut<'_, f64>, f: impl Fn(&[f64], &mut [f64])) {
-        let whole = (0, self.dim());
-        assert_eq!((first, x.nrows()), whole, "a product that couples rows needs whole columns");
+    fn by_column(&self, mut x: MatMut<'_, f64>, f: impl Fn(&[f64], &mut [f64])) {
+        assert_eq!(x.nrows(), self.dim(), "a product that couples all rows needs whole columns");
         let mut new = vec![0.0; self.dim()];
         for column in x.as_mut().col_iter_mut() {
             let old: Vec<f64> = column.as_ref().iter().copied().collect();
@@ -75,34 +76,36 @@ impl InnerProduct for SparseSpd {
         self.matrix.nrows()
     }
 
-    fn couples_rows(&self) -> bool {
-        true
+    fn reach(&self) -> Reach {
+        Reach::All
     }
 
-    fn diagonal(&self) -> Vec<f64> {
+    fn diagonal(&self) -> io::Result<Vec<f64>> {
         let at = |i| self.matrix.get(i, i).copied().unwrap_or(0.0);
-        (0..self.dim()).map(at).collect()
+        Ok((0..self.dim()).map(at).collect())
     }
 
-    fn apply(&self, first: usize, x: MatMut<'_, f64>) {
-        self.by_column(first, x, |old, new| {
+    fn apply(&self, x: MatMut<'_, f64>) -> io::Result<()> {
+        self.by_column(x, |old, new| {
             for (j, new) in new.iter_mut().enumerate() {
                 *new = dot(column(&self.matrix, j), old); // W is symmetric: its column is its row.
             }
         });
+        Ok(())
     }
 
-    fn factor(&self, first: usize, x: MatMut<'_, f64>) {
-        self.by_column(first, x, |old, new| {
+    fn factor(&self, _rows: Range<usize>, x: MatMut<'_, f64>) -> io::Result<()> {
+        self.by_column(x, |old, new| {
             let ordered: Vec<f64> = self.order.iter().map(|&k| old[k]).collect();
             for (j, new) in new.iter_mut().enumerate() {
                 *new = dot(column(&self.lower, j), &ordered);
             }
         });
+        Ok(())
     }
 
-    fn unfactor(&self, first: usize, x: MatMut<'_, f64>) {
-        self.by_column(first, x, |old, new| {
+    fn unfactor(&self, x: MatMut<'_, f64>) -> io::Result<()> {
+        self.by_column(x, |old, new| {
             let mut y = old.to_vec();
             for j in (0..y.len()).rev() {
                 let (rows, values) = column(&self.lower, j);
@@ -112,6 +115,7 @@ impl InnerProduct for SparseSpd {
                 new[k] = y;
             }
         });
+        Ok(())
     }
 }
 
@@ -163,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn w_is_the_square_of_its_factor() -> Result<(), InnerProductError> {
+    fn w_is_the_square_of_its_factor() -> Result<(), Box<dyn std::error::Error>> {
         let size = 40;
         let [mass, _] = mass_and_stiffness(size);
         let w = SparseSpd::from_triplets(size, &mass)?;
@@ -173,15 +177,15 @@ mod tests {
         }
 
         let mut applied = Mat::<f64>::identity(size, size);
-        w.apply(0, applied.as_mut());
+        w.apply(applied.as_mut())?;
         assert_eq!(applied, dense);
 
         let mut f = Mat::<f64>::identity(size, size);
-        w.factor(0, f.as_mut());
+        w.factor(0..size, f.as_mut())?;
         let defect = (f.transpose() * &f - &dense).norm_max();
         assert!(defect < 1e-14, "|FᵀF - W| = {defect:e}");
 
-        w.unfactor(0, f.as_mut());
+        w.unfactor(f.as_mut())?;
         let defect = (f - Mat::<f64>::identity(size, size)).norm_max();
         assert!(defect < 1e-14, "|F⁻¹F - I| = {defect:e}");
         Ok(())
@@ -189,7 +193,7 @@ mod tests {
 
     /// Bilinear elements on a square of 9 x 9 nodes: the factor has entries where W has none.
     #[test]
-    fn w_is_the_square_of_a_factor_with_fill_in() -> Result<(), InnerProductError> {
+    fn w_is_the_square_of_a_factor_with_fill_in() -> Result<(), Box<dyn std::error::Error>> {
         const SIDE: usize = 9;
         let line = |i: usize, j: usize| match i.abs_diff(j) {
             0 if i == 0 || i == SIDE - 1 => 2.0,
@@ -207,10 +211,10 @@ mod tests {
         let triangle = entries.iter().filter(|(i, j, _)| i >= j).count();
         assert!(w.lower.compute_nnz() > triangle, "no fill-in");
         let mut f = Mat::<f64>::identity(SIDE * SIDE, SIDE * SIDE);
-        w.factor(0, f.as_mut());
+        w.factor(0..SIDE * SIDE, f.as_mut())?;
         let defect = (f.transpose() * &f - &mass).norm_max();
         assert!(defect < 1e-13, "|FᵀF - W| = {defect:e}");
-        w.unfactor(0, f.as_mut());
+        w.unfactor(f.as_mut())?;
         let defect = (f - Mat::<f64>::identity(SIDE * SIDE, SIDE * SIDE)).norm_max();
         assert!(defect < 1e-14, "|F⁻¹F - I| = {defect:e}");
         Ok(())

@@ -3,7 +3,9 @@
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
 use faer::{Mat, MatRef, Par};
-use lumley_pod::{Diagonal, Identity, InnerProduct, MemorySnapshots, SparseSpd};
+use lumley_pod::{
+    Diagonal, Identity, InnerProduct, Kronecker, MemorySnapshots, SparseSpd, Tridiagonal,
+};
 
 /// Numbers in (-1, 1) from a linear congruential generator.
 pub fn random(seed: u64) -> impl FnMut() -> f64 {
@@ -34,12 +36,23 @@ pub fn with_singular_values(
 ) -> Mat<f64> {
     let (n, m) = shape;
     let mut u = orthonormal(n, sigma.len(), seed);
-    w.unfactor(0, u.as_mut());
+    w.unfactor(u.as_mut()).expect("weights in memory");
     let v = orthonormal(m, sigma.len(), seed + 1);
     let sigma_vt = Mat::from_fn(sigma.len(), m, |k, j| sigma[k] * v[(j, k)]);
     let mut x = Mat::zeros(n, m);
     faer::linalg::matmul::matmul(&mut x, faer::Accum::Replace, &u, &sigma_vt, 1.0, Par::Seq);
     x
+}
+
+/// The mass matrix of a uniform grid, in two directions where n is even.
+pub fn grid(n: usize) -> Kronecker {
+    let line = |n: usize| {
+        let inner = |k: usize| if k == 0 || k == n - 1 { 2.0 } else { 4.0 };
+        let diagonal: Vec<f64> = (0..n).map(inner).collect();
+        Tridiagonal::new(&diagonal, &vec![1.0; n - 1]).expect("a mass matrix is positive definite")
+    };
+    let directions = if n % 2 == 0 { vec![line(n / 2), line(2)] } else { vec![line(n)] };
+    Kronecker::new(directions, 1)
 }
 
 /// The mass matrix of linear elements of unequal lengths on a line.
@@ -65,12 +78,13 @@ pub fn h1(n: usize) -> SparseSpd {
 }
 
 /// An inner product of each kind.
-pub fn products(n: usize) -> [(&'static str, Box<dyn InnerProduct>); 4] {
+pub fn products(n: usize) -> [(&'static str, Box<dyn InnerProduct>); 5] {
     let mut next = random(3);
     let weights = (0..n).map(|_| 1.5 + next()).collect();
     [
         ("identity", Box::new(Identity::new(n))),
         ("diagonal", Box::new(Diagonal::new(weights).expect("positive"))),
+        ("grid", Box::new(grid(n))),
         ("sparse", Box::new(mass_matrix(n))),
         ("H1", Box::new(h1(n))),
     ]
@@ -90,7 +104,7 @@ pub fn snapshots(x: Mat<f64>) -> MemorySnapshots {
 /// `Aᵀ W B`.
 pub fn inner(w: &dyn InnerProduct, a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let mut weighted = b.to_owned();
-    w.apply(0, weighted.as_mut());
+    w.apply(weighted.as_mut()).expect("weights in memory");
     a.transpose() * weighted
 }
 

@@ -11,4 +11,4 @@ mod write;
 pub use matrix::{NpyMatrix, read_vector};
 pub use snapshots::{NpySnapshots, SnapshotLayout};
 pub use write::{NpyWriter, write_matrix, write_vector};
-pub(in crate::format) use write::{file_size, push_columns};
+pub(in crate::format) use write::{file_size, header, push_columns};

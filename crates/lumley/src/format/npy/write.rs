@@ -26,7 +26,7 @@ impl<W: Write> NpyWriter<W> {
     /// # Errors
     /// The failure of `out`.
     pub fn new(mut out: W, shape: &[usize]) -> io::Result<Self> {
-        out.write_all(&header(shape))?;
+        out.write_all(&header(shape, shape.len() > 1))?;
         Ok(Self { out, missing: shape.iter().product() })
     }
 
@@ -99,13 +99,13 @@ pub(in crate::format) fn push_columns(
 
 /// Bytes of an NPY file of this shape.
 pub(in crate::format) fn file_size(shape: &[usize]) -> u64 {
-    header(shape).len() as u64 + 8 * shape.iter().product::<usize>() as u64
+    header(shape, shape.len() > 1).len() as u64 + 8 * shape.iter().product::<usize>() as u64
 }
 
 /// The header, version 1.0, padded as NumPy does so that the numbers are aligned to 64 bytes.
-fn header(shape: &[usize]) -> Vec<u8> {
+pub(in crate::format) fn header(shape: &[usize], fortran_order: bool) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(|axis| format!("{axis},")).collect();
-    let order = if shape.len() > 1 { "True" } else { "False" };
+    let order = if fortran_order { "True" } else { "False" };
     let text =
         format!("{{'descr': '<f8', 'fortran_order': {order}, 'shape': ({}), }}", axes.join(" "));
     let total = (10 + text.len() + 1).next_multiple_of(64);

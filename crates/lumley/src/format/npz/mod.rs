@@ -4,8 +4,12 @@
 
 mod crc32;
 mod directory;
+mod pieces;
 mod read;
+mod records;
+mod rows;
 mod write;
 
 pub use read::NpzReader;
+pub use rows::NpzRows;
 pub use write::NpzWriter;

@@ -48,6 +48,22 @@ impl NpzReader {
     /// # Errors
     /// [`FormatError`]: no such array, compressed, damaged, or not what [`NpyMatrix`] reads.
     pub fn matrix(&self, name: &str) -> Result<NpyMatrix, FormatError> {
+        let (member, crc) = self.member(name)?;
+        check(&member, crc)?;
+        NpyMatrix::in_region(member, |_| 1)
+    }
+
+    /// The array `name`, to be read by blocks; its checksum, which takes a pass over it, is left unread.
+    ///
+    /// # Errors
+    /// As for [`matrix`](Self::matrix).
+    pub fn unchecked(&self, name: &str) -> Result<NpyMatrix, FormatError> {
+        let (member, _) = self.member(name)?;
+        NpyMatrix::in_region(member, |_| 1)
+    }
+
+    /// Where the array `name` lies, and its checksum.
+    fn member(&self, name: &str) -> Result<(Region, u32), FormatError> {
         let entry = self.entries.iter().find(|e| e.name.strip_suffix(".npy") == Some(name));
         let entry = entry.ok_or_else(|| FormatError::NoSuchArray {
             path: self.file.path().to_owned(),
@@ -58,9 +74,7 @@ impl NpzReader {
             let path = self.file.path().join(&entry.name);
             return Err(FormatError::Compressed { path, method: entry.method });
         }
-        let member = directory::member(&self.file, entry, self.end)?;
-        check(&member, entry.crc)?;
-        NpyMatrix::in_region(member, |_| 1)
+        Ok((directory::member(&self.file, entry, self.end)?, entry.crc))
     }
 
     /// The whole of the matrix `name`.

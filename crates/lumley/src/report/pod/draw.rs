@@ -1,6 +1,7 @@
 //! Coefficients and modes as figures.
 
-use super::{FieldGrid, PodReport};
+use super::drawn::DrawnField;
+use super::{DrawnModes, FieldGrid, PodReport};
 use crate::report::figure::{Axis, Drawing, Figure, HeatMap, LineChart, Series};
 use crate::report::html::Section;
 
@@ -29,51 +30,50 @@ pub(super) fn coefficients(report: &PodReport) -> Figure {
     Drawing::panels(2, &panels).figure("coefficients", caption)
 }
 
-pub(super) fn section(report: &PodReport) -> Section {
+pub(super) fn section(modes: Option<&DrawnModes>) -> Section {
     let section = Section::new("Modes");
-    match report.grid {
+    match modes {
         None => section.paragraph(
             "The modes are not drawn: the shape of the grid was not given (option --grid).",
         ),
-        Some(grid) if grid.is_empty() || report.modes.iter().any(|m| m.len() != grid.len()) => {
-            section.paragraph("The modes are not drawn: they do not fit the grid that was given.")
-        }
-        Some(grid) if grid.nodes[1] == 1 && grid.nodes[2] == 1 => {
-            section.figure(lines(report, grid))
-        }
-        Some(grid) => section.figure(pictures(report, grid)),
+        Some(modes) if modes.grid().is_line() => section.figure(lines(modes)),
+        Some(modes) => section.figure(pictures(modes)),
     }
 }
 
+/// The number of each mode that is drawn, from 1, and its components.
+fn shown(modes: &DrawnModes) -> impl Iterator<Item = (usize, &[DrawnField])> {
+    (1..=SHOWN).zip(modes.fields.chunks(modes.grid().components))
+}
+
 /// One chart for each component, the modes as curves.
-fn lines(report: &PodReport, grid: FieldGrid) -> Figure {
-    let nodes: Vec<f64> = (1..=grid.nodes[0]).map(|i| i as f64).collect();
+fn lines(modes: &DrawnModes) -> Figure {
+    let grid = modes.grid();
     let chart = |component: usize| {
         let y = Axis::new(&format!("*Φ*_{{n}}{}", of_component(grid, component)), "");
         let chart = LineChart::new(Axis::new("node", "").count(), y);
-        let curve = |chart: LineChart, (k, mode): (usize, &Vec<f64>)| {
-            let values = &mode[component * nodes.len()..][..nodes.len()];
-            chart.series(Series::line(&format!("*Φ*_{{{}}}", k + 1), &nodes, values).colour(k))
+        let curve = |chart: LineChart, (n, fields): (usize, &[DrawnField])| {
+            let DrawnField { x, values, .. } = &fields[component];
+            chart.series(Series::line(&format!("*Φ*_{{{n}}}"), x, values).colour(n - 1))
         };
-        report.modes.iter().take(SHOWN).enumerate().fold(chart, curve).draw(280.0)
+        shown(modes).fold(chart, curve).draw(280.0)
     };
     let charts: Vec<Drawing> = (0..grid.components).map(chart).collect();
     Drawing::stack(&charts).figure("modes", "The first modes on the grid.")
 }
 
 /// A panel for each mode and component.
-fn pictures(report: &PodReport, grid: FieldGrid) -> Figure {
-    let panel = |mode: &[f64], k: usize, component: usize| {
-        let [nx, ny, _] = grid.nodes;
-        let axis = |count: usize| (1..=count).map(|i| i as f64).collect::<Vec<f64>>();
-        let values = middle_slice(mode, grid, component);
-        let title = format!("*Φ*_{{{}}}{}", k + 1, of_component(grid, component));
+fn pictures(modes: &DrawnModes) -> Figure {
+    let grid = modes.grid();
+    let panel = |n: usize, component: usize, field: &DrawnField| {
+        let title = format!("*Φ*_{{{n}}}{}", of_component(grid, component));
         let (x, y) = (Axis::new("node *i*", "").count(), Axis::new("node *j*", "").count());
-        let map = HeatMap::new((x, &axis(nx)), (y, &axis(ny)), values);
+        let map = HeatMap::new((x, &field.x), (y, &field.y), field.values.clone());
         map.draw_at(350.0, map.height_of_equal_scales(350.0)).titled(&title)
     };
-    let modes = report.modes.iter().take(SHOWN).enumerate();
-    let panels = modes.flat_map(|(k, mode)| (0..grid.components).map(move |c| panel(mode, k, c)));
+    let panels = shown(modes).flat_map(|(n, fields)| {
+        fields.iter().enumerate().map(move |(component, field)| panel(n, component, field))
+    });
     let slice = match grid.nodes[2] {
         1 => String::new(),
         nz => format!(" Drawn is the middle slice, {} of {nz} in the third direction.", nz / 2 + 1),
@@ -83,13 +83,6 @@ fn pictures(report: &PodReport, grid: FieldGrid) -> Figure {
          the sign of a whole mode is a convention.{slice}"
     );
     Drawing::panels(2, &panels.collect::<Vec<_>>()).figure("modes", &caption)
-}
-
-/// The component at the nodes of the middle slice in the third direction.
-fn middle_slice(mode: &[f64], grid: FieldGrid, component: usize) -> Vec<f64> {
-    let [nx, ny, nz] = grid.nodes;
-    let start = (component * nz + nz / 2) * nx * ny;
-    mode[start..start + nx * ny].to_vec()
 }
 
 fn of_component(grid: FieldGrid, component: usize) -> String {

@@ -1,8 +1,11 @@
 //! The report of a decomposition of snapshots that lumley did not make.
 
 mod draw;
+mod drawn;
 #[cfg(test)]
 mod tests;
+
+pub use drawn::{DrawnModes, FieldGrid};
 
 use super::energy::{self, Share};
 use super::figure::{Axis, Figure, LineChart, Series};
@@ -10,37 +13,6 @@ use super::html::{Page, Report, Section, Table};
 use super::literal;
 use super::number::{count, fixed, scientific, significant};
 use super::provenance::Provenance;
-
-/// The uniform grid that the rows of modes stand for.
-///
-/// A mode lists its first component at all nodes, then the second, and so on; within a component
-/// the first direction runs fastest.
-///
-/// ```
-/// use lumley::report::FieldGrid;
-///
-/// let plane = FieldGrid { nodes: [211, 121, 1], components: 2 };
-/// assert_eq!(plane.len(), 2 * 211 * 121);
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct FieldGrid {
-    /// Nodes in each direction, 1 where there is none.
-    pub nodes: [usize; 3],
-    /// Components of the field at a node.
-    pub components: usize,
-}
-
-impl FieldGrid {
-    /// Numbers in a mode.
-    pub fn len(&self) -> usize {
-        self.nodes.iter().fold(self.components, |n, &k| n.saturating_mul(k))
-    }
-
-    /// Whether there is no node.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-}
 
 /// Everything that the report of a decomposition shows; what is missing is left out.
 ///
@@ -53,7 +25,6 @@ impl FieldGrid {
 ///     unknowns: 2,
 ///     eigenvalues: vec![2.0, 0.5],
 ///     total_energy: 2.5,
-///     modes: vec![vec![1.0, 0.0], vec![0.0, 1.0]],
 ///     ..PodReport::default()
 /// };
 /// assert!(report.render().page.contains("wake.npy"));
@@ -74,18 +45,16 @@ pub struct PodReport {
     pub method: String,
     /// Why this one.
     pub reason: String,
-    /// λ of the modes found, largest first, in the square of the data's unit.
+    /// λ of the modes kept, largest first, in the square of the data's unit.
     pub eigenvalues: Vec<f64>,
-    /// Sum of all λ, also of those not found.
+    /// Sum of all λ, also of modes that are not kept.
     pub total_energy: f64,
-    /// The modes kept.
-    pub modes: Vec<Vec<f64>>,
+    /// What is drawn of the modes, where their grid is known.
+    pub modes: Option<DrawnModes>,
     /// `a_n` at the snapshots, one row for each mode.
     pub coefficients: Vec<Vec<f64>>,
     /// Times of the snapshots; empty if not given.
     pub times: Vec<f64>,
-    /// The grid to draw the modes on.
-    pub grid: Option<FieldGrid>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Where the numbers come from.
@@ -105,7 +74,7 @@ impl PodReport {
         page.section(self.what())
             .section(energies(&shares))
             .section(self.coefficients())
-            .section(draw::section(self))
+            .section(draw::section(self.modes.as_ref()))
             .section(self.provenance.section())
             .render()
     }
@@ -114,9 +83,9 @@ impl PodReport {
         let mut facts = vec![
             (count(self.snapshots), "snapshots".into()),
             (count(self.unknowns), "numbers in each".into()),
-            (count(self.modes.len()), "modes kept".into()),
+            (count(shares.len()), "modes kept".into()),
         ];
-        if let Some(last) = self.modes.len().checked_sub(1).and_then(|last| shares.get(last)) {
+        if let Some(last) = shares.last() {
             let error = significant(last.rms_percent, 2) + " %";
             facts.push((error, "RMS error of the projection on them".into()));
         }

@@ -1,10 +1,19 @@
-use super::{FieldGrid, PodReport};
+use super::{DrawnModes, FieldGrid, PodReport};
 use crate::report::checks::{Dice, HOSTILE_TEXT, assert_sound};
+use faer::Mat;
+use std::convert::Infallible;
+
+fn drawn(grid: FieldGrid, modes: &Mat<f64>) -> DrawnModes {
+    let Ok(drawn) = DrawnModes::sample(grid, modes.ncols(), |rows| {
+        Ok::<_, Infallible>(modes.subrows(rows.start, rows.len()).to_owned())
+    });
+    drawn
+}
 
 /// Three modes of sines on a grid.
 fn sample(nodes: [usize; 3], components: usize) -> PodReport {
     let grid = FieldGrid { nodes, components };
-    let mode = |k: usize| (0..grid.len()).map(|i| (0.1 * (k * i) as f64).sin()).collect();
+    let modes = Mat::from_fn(grid.len(), 3, |i, k| (0.1 * ((k + 1) * i) as f64).sin());
     PodReport {
         source: "wake.npy".into(),
         snapshots: 40,
@@ -14,9 +23,8 @@ fn sample(nodes: [usize; 3], components: usize) -> PodReport {
         reason: "40 snapshots are fewer than the unknowns".into(),
         eigenvalues: vec![4.0, 1.0, 1e-5],
         total_energy: 5.1,
-        modes: (1..=3).map(mode).collect(),
+        modes: Some(drawn(grid, &modes)),
         coefficients: (1..=3).map(|k| (0..40).map(|t| f64::from(k * t).cos()).collect()).collect(),
-        grid: Some(grid),
         ..PodReport::default()
     }
 }
@@ -42,16 +50,22 @@ fn modes_are_drawn_on_grids_of_one_two_and_three_directions() {
 }
 
 #[test]
-fn without_a_grid_or_with_a_wrong_one_modes_are_not_drawn() {
-    let mut report = sample([12, 7, 1], 1);
-    for (grid, said) in [
-        (None, "option --grid"),
-        (Some(FieldGrid { nodes: [usize::MAX; 3], components: 3 }), "do not fit the grid"),
-        (Some(FieldGrid { nodes: [0, 7, 1], components: 1 }), "do not fit the grid"),
-    ] {
-        report.grid = grid;
-        assert!(report.render().page.contains(said), "{grid:?}");
-        assert_eq!(names(&report), ["spectrum.svg", "coefficients.svg"]);
+fn without_a_grid_modes_are_not_drawn() {
+    let report = PodReport { modes: None, ..sample([12, 7, 1], 1) };
+    assert!(report.render().page.contains("option --grid"));
+    assert_eq!(names(&report), ["spectrum.svg", "coefficients.svg"]);
+}
+
+/// The axes show the numbers of the true nodes.
+#[test]
+fn large_modes_make_small_figures() {
+    for (nodes, size, tick) in
+        [([500_000, 1, 1], 150_000, ">5.0<"), ([1500, 1200, 1], 300_000, ">1000<")]
+    {
+        let rendered = sample(nodes, 1).render();
+        let (_, svg) = rendered.figures.last().expect("the modes");
+        assert!(svg.len() < size, "{nodes:?}: {} bytes", svg.len());
+        assert!(svg.contains(tick), "{nodes:?}");
     }
 }
 
@@ -80,7 +94,9 @@ fn hostile_data_stay_harmless() {
         let mut report = sample([4, 3, 1], 1);
         (report.source, report.reason) = (HOSTILE_TEXT.into(), HOSTILE_TEXT.into());
         report.warnings = vec![HOSTILE_TEXT.into()];
-        report.modes = vec![dice.hostile(12), dice.hostile(12)];
+        let values = dice.hostile(24);
+        let modes = Mat::from_fn(12, 2, |i, k| values[12 * k + i]);
+        report.modes = Some(drawn(FieldGrid { nodes: [4, 3, 1], components: 1 }, &modes));
         let length = dice.below(9);
         report.coefficients = vec![dice.hostile(length), dice.hostile(5)];
         report.times = dice.hostile(length);

@@ -1,13 +1,20 @@
 //! Small dense problems, always on one thread: their blocking, hence their last bits, would
 //! otherwise depend on the number of threads.
 
+mod cholesky;
+mod jacobi;
+
+pub(crate) use cholesky::PivotedCholesky;
+use jacobi::graded_svd;
+
 use crate::PodError;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
+use faer::linalg::matmul::matmul;
 use faer::linalg::svd::{ComputeSvdVectors, SvdParams, svd, svd_scratch};
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
-use faer::{Auto, Mat, MatRef, Par, Spec};
+use faer::{Accum, Auto, Mat, MatRef, Par, Spec};
 
 /// Eigenvalues, largest first, and eigenvectors of a symmetric matrix.
 pub(crate) fn eigen_descending(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodError> {
@@ -31,12 +38,24 @@ pub(crate) fn eigen_descending(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>
     Ok((descending, vectors.as_ref().reverse_cols().to_owned()))
 }
 
-/// Singular values, largest first, and right singular vectors of `a`.
+/// Singular values, largest first, and right singular vectors of a square matrix: each value right to
+/// itself where the columns are graded, else to a few eps of the first, which takes a third of the time.
 pub(crate) fn right_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodError> {
-    let (rows, columns) = a.shape();
+    const GRADED: f64 = 1e-3;
+    let norms = || a.col_iter().map(|column| column.norm_l2()).filter(|norm| *norm > 0.0);
+    let (least, largest) = (norms().fold(f64::INFINITY, f64::min), norms().fold(0.0, f64::max));
     if !a.squared_norm_l2().is_finite() {
         return Err(PodError::Overflow);
     }
+    if least < GRADED * largest {
+        return graded_svd(a).map_err(|_| PodError::NoConvergence { size: a.ncols() });
+    }
+    bidiagonal_svd(a)
+}
+
+/// Singular values, largest first, and right singular vectors, both right to a few eps of the first.
+fn bidiagonal_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodError> {
+    let (rows, columns) = a.shape();
     let size = rows.min(columns);
     let (mut values, mut right) = (Diag::<f64>::zeros(size), Mat::zeros(columns, size));
     let (no, thin) = (ComputeSvdVectors::No, ComputeSvdVectors::Thin);
@@ -52,6 +71,31 @@ pub(crate) fn right_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodE
     )
     .map_err(|_| PodError::NoConvergence { size })?;
     Ok((values.column_vector().iter().copied().collect(), right))
+}
+
+/// `A B` on one thread.
+pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
+    let mut c = Mat::zeros(a.nrows(), b.ncols());
+    matmul(c.as_mut(), Accum::Replace, a, b, 1.0, Par::Seq);
+    c
+}
+
+/// The upper triangular factor R of `G = Rᵀ R`, or nothing where G is not positive definite to working
+/// precision.
+pub(crate) fn cholesky_upper(g: MatRef<'_, f64>) -> Option<Mat<f64>> {
+    let size = g.ncols();
+    let mut r = Mat::<f64>::zeros(size, size);
+    for j in 0..size {
+        for i in 0..=j {
+            let known: f64 = (0..i).map(|k| r[(k, i)] * r[(k, j)]).sum();
+            let left = g[(i, j)] - known;
+            r[(i, j)] = if i < j { left / r[(i, i)] } else { left.sqrt() };
+        }
+        if !(r[(j, j)] > 0.0) {
+            return None;
+        }
+    }
+    Some(r)
 }
 
 /// The inverse of a square upper triangular matrix, or nothing where it is singular.

@@ -1,0 +1,95 @@
+//! From stored columns to modes: orthonormal, signed, published.
+
+use super::raw::{Columns, add_columns};
+use crate::dense::{self, product};
+use crate::inner_product::support;
+use crate::partial::Partial;
+use crate::partition::Partition;
+use crate::run::Run;
+use crate::{PodError, Reach};
+use faer::{Mat, MatRef};
+use std::ops::Range;
+
+/// What makes orthonormal modes of columns, `Phi = columns T`.
+pub(super) struct Change {
+    /// T.
+    pub to_modes: Mat<f64>,
+    /// Its inverse.
+    pub of_coefficients: Mat<f64>,
+}
+
+/// `columns = Phi R`, with R from the Gram matrix of the columns (Cholesky-QR): the identity up to the
+/// relative error of the smallest modes, and being triangular it leaves the larger modes alone.
+/// An entry of largest magnitude of each mode is positive.
+pub(super) fn orthonormal(run: &Run<'_>, mut columns: Columns) -> Result<Change, PodError> {
+    const ROUND_OFF: f64 = 1e-14;
+    const PASSES: usize = 3;
+    let size = columns.extremes.len();
+    let identity = Mat::<f64>::identity(size, size);
+    let (mut to_modes, mut r) = (identity.clone(), identity.clone());
+    for _ in 0..PASSES {
+        let defect = (&columns.gram - &identity).norm_max();
+        if defect <= ROUND_OFF {
+            break;
+        }
+        let step =
+            dense::cholesky_upper(columns.gram.as_ref()).ok_or(PodError::LostOrthogonality)?;
+        let inverse = dense::upper_inverse(step.as_ref()).ok_or(PodError::LostOrthogonality)?;
+        to_modes = product(to_modes.as_ref(), inverse.as_ref());
+        r = product(step.as_ref(), r.as_ref());
+        // What a Gram matrix close to the identity misses is round-off.
+        if defect < 0.1 {
+            break;
+        }
+        columns = changed(run, to_modes.as_ref())?;
+    }
+    for (k, extreme) in columns.extremes.iter().enumerate() {
+        let sign = extreme.signum();
+        to_modes.col_mut(k).iter_mut().for_each(|x| *x *= sign);
+        r.row_mut(k).iter_mut().for_each(|x| *x *= sign);
+    }
+    Ok(Change { to_modes, of_coefficients: r })
+}
+
+/// What is known of the stored columns times `change`.
+fn changed(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<Columns, PodError> {
+    let (ensemble, modes, size) = (run.ensemble, run.modes, change.nrows());
+    let Reach::Rows(reach) = ensemble.product.reach() else {
+        unreachable!("products of whole columns are taken before")
+    };
+    let piece = ensemble.partition.block().max(8 * reach);
+    let part = |rows: Range<usize>| {
+        let mut sum = Partial::zeros(size * size, size);
+        for rows in Partition::pieces(rows, piece) {
+            let support = support(ensemble.product, &rows);
+            let mut stored = Mat::zeros(support.len(), size);
+            modes.read(support, stored.as_mut())?;
+            let mut columns = product(stored.as_ref(), change);
+            let own = columns.subrows(0, rows.len()).to_owned();
+            ensemble.product.factor(rows.clone(), columns.as_mut())?;
+            add_columns(&mut sum, own.as_ref(), columns.subrows(0, rows.len()));
+        }
+        Ok(sum)
+    };
+    Ok(Columns::of(&run.over_modes("orthonormalisation", size, &part)?, size))
+}
+
+/// Publishes the stored columns times `change`, and the mean behind them.
+pub(super) fn publish(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<(), PodError> {
+    let (n, _) = run.ensemble.shape();
+    let (stored, kept) = change.shape();
+    let (block, modes) = (run.ensemble.partition.block(), run.modes);
+    let centred = run.ensemble.options.center;
+    modes.begin(n, kept, centred)?;
+    let part = |rows: Range<usize>| {
+        for rows in Partition::pieces(rows, block) {
+            let mut columns = Mat::zeros(rows.len(), stored + usize::from(centred));
+            modes.read(rows.clone(), columns.as_mut())?;
+            let mean = centred.then(|| columns.col_as_slice(stored));
+            let found = product(columns.subcols(0, stored), change);
+            modes.publish(rows, found.as_ref(), mean)?;
+        }
+        Ok(Partial::default())
+    };
+    run.over_modes("writing the modes", stored, &part).map(|_| ())
+}

@@ -1,0 +1,135 @@
+//! Columns that are nearly modes, as they come out of the snapshots.
+
+use crate::correlation::mirror;
+use crate::ensemble::{Ensemble, Tile};
+use crate::kernel::add_gram;
+use crate::partial::{Partial, extreme};
+use crate::run::Run;
+use crate::{ModeStore, PodError};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatMut, MatRef, Par};
+use std::ops::Range;
+
+/// How the columns come out of the snapshots.
+pub(super) struct Lift<'a> {
+    /// M x k: the columns are X times this.
+    pub to_modes: MatRef<'a, f64>,
+    /// k x M: the columns times this are what they hold of the snapshots.
+    pub coefficients: MatRef<'a, f64>,
+}
+
+/// Stored columns, as far as they are known without reading them.
+pub(super) struct Columns {
+    /// Their Gram matrix in the inner product.
+    pub gram: Mat<f64>,
+    /// Of each an entry of largest magnitude.
+    pub extremes: Vec<f64>,
+}
+
+/// Squares of the norms of what the modes leave of each snapshot, and of the snapshot itself; empty
+/// unless asked for.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Residual {
+    pub left: Vec<f64>,
+    pub whole: Vec<f64>,
+}
+
+pub(super) struct RawModes {
+    pub columns: Columns,
+    pub residual: Residual,
+}
+
+/// One pass over the snapshots: stores the columns, and the mean behind them where it is subtracted.
+pub(super) fn raw_modes(run: &Run<'_>, lift: &Lift<'_>) -> Result<RawModes, PodError> {
+    let (n, m) = run.ensemble.shape();
+    let (kept, options) = (lift.to_modes.ncols(), run.ensemble.options);
+    run.modes.reserve(n, kept + usize::from(options.center))?;
+    let residuals = if options.residuals { m } else { 0 };
+    let (ensemble, modes) = (run.ensemble, run.modes);
+    let part = |rows: Range<usize>| {
+        let mut sum = Partial::zeros(kept * kept + 2 * residuals, kept);
+        ensemble.for_tiles(rows, &mut |tile| lift.tile(ensemble, modes, tile, &mut sum))?;
+        Ok(sum)
+    };
+    let sum = run.over_snapshots("modes", &part)?;
+    let (left, whole) = sum.sums[kept * kept..].split_at(residuals);
+    let residual = Residual { left: left.to_vec(), whole: whole.to_vec() };
+    Ok(RawModes { columns: Columns::of(&sum, kept), residual })
+}
+
+impl Columns {
+    /// * `sum`: of [`add_columns`]
+    pub fn of(sum: &Partial, count: usize) -> Self {
+        let mut gram = sum.matrix(count, count).to_owned();
+        mirror(&mut gram);
+        Self { gram, extremes: sum.extremes.clone() }
+    }
+}
+
+/// Adds what is known of some rows of columns.
+///
+/// * `weighted`: the same rows of F times the columns
+pub(super) fn add_columns(sum: &mut Partial, columns: MatRef<'_, f64>, weighted: MatRef<'_, f64>) {
+    for (of_column, column) in sum.extremes.iter_mut().zip(columns.col_iter()) {
+        *of_column = column.iter().fold(*of_column, |a, b| extreme(a, *b));
+    }
+    let count = columns.ncols();
+    add_gram(sum.matrix_mut(count, count), weighted);
+}
+
+impl Lift<'_> {
+    fn tile(
+        &self,
+        ensemble: &Ensemble<'_>,
+        modes: &dyn ModeStore,
+        mut tile: Tile<'_>,
+        sum: &mut Partial,
+    ) -> Result<(), PodError> {
+        let (kept, count) = (self.to_modes.ncols(), tile.rows.len());
+        let means = usize::from(tile.mean.is_some());
+        let mut columns = Mat::zeros(tile.x.nrows(), kept + means);
+        let raw = columns.subcols_mut(0, kept);
+        matmul(raw, Accum::Replace, tile.x.as_ref(), self.to_modes, 1.0, Par::Seq);
+        if let Some(mean) = &tile.mean {
+            columns.col_mut(kept).iter_mut().zip(&mean.field).for_each(|(to, u)| *to = *u);
+        }
+        modes.write(tile.rows.clone(), columns.subrows(0, count))?;
+        let raw = columns.get(..count, ..kept).to_owned();
+        ensemble.product.factor(tile.rows.clone(), columns.as_mut())?;
+        let weighted = columns.subrows(0, count);
+        add_columns(sum, raw.as_ref(), weighted.subcols(0, kept));
+        if ensemble.options.residuals {
+            ensemble.product.factor(tile.rows.clone(), tile.x.as_mut())?;
+            let z = tile.x.subrows_mut(0, count);
+            self.add_residuals(&mut sum.sums[kept * kept..], &ensemble.scale, weighted, z);
+        }
+        Ok(())
+    }
+
+    /// * `weighted`: F times the columns, and the mean behind them where it was subtracted
+    /// * `z`: F times the snapshots as they were decomposed
+    fn add_residuals(
+        &self,
+        sums: &mut [f64],
+        scale: &[f64],
+        weighted: MatRef<'_, f64>,
+        mut z: MatMut<'_, f64>,
+    ) {
+        let (kept, m) = (self.to_modes.ncols(), z.ncols());
+        let (left, whole) = sums.split_at_mut(m);
+        let mean = (weighted.ncols() > kept).then(|| weighted.col(kept));
+        for ((sum, column), s) in whole.iter_mut().zip(z.as_ref().col_iter()).zip(scale) {
+            *sum += match mean {
+                None => column.squared_norm_l2(),
+                Some(mean) => {
+                    column.iter().zip(mean.iter()).map(|(z, u)| (z + s * u).powi(2)).sum()
+                }
+            };
+        }
+        let held = weighted.subcols(0, kept);
+        matmul(z.as_mut(), Accum::Add, held, self.coefficients, -1.0, Par::Seq);
+        for (sum, column) in left.iter_mut().zip(z.as_ref().col_iter()) {
+            *sum += column.squared_norm_l2();
+        }
+    }
+}

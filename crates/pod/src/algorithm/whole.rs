@@ -1,0 +1,72 @@
+//! Inner products that couple all rows: everything is done on `Z = F X` in memory.
+
+use crate::ensemble::Ensemble;
+use crate::partial::extreme;
+use crate::run::Run;
+use crate::snapshots::MemorySnapshots;
+use crate::{
+    Decomposition, Execution, Identity, InnerProduct, MemoryModes, ModeStore, Options, PodError,
+    SnapshotSource,
+};
+use faer::Mat;
+
+/// Decomposes `F X` in the Euclidean product; the modes are `F⁻¹` of what comes of it.
+pub(super) fn with_columns(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+    execution: Execution<'_>,
+    modes: &dyn ModeStore,
+    algorithm: &dyn Fn(&Run<'_>) -> Result<Decomposition, PodError>,
+) -> Result<Decomposition, PodError> {
+    if execution.ranks.count() > 1 {
+        return Err(PodError::WholeColumns { ranks: execution.ranks.count() });
+    }
+    let (z, amplified) = weighted(x, w, options)?;
+    let z = MemorySnapshots::new(z, x.times().to_vec());
+    let identity = Identity::new(w.dim());
+    let mut ensemble = Ensemble::new(&z, &identity, options)?;
+    ensemble.amplified = amplified;
+    let found = MemoryModes::default();
+    let mut decomposition = algorithm(&Run::new(&ensemble, execution, &found))?;
+    let (mut basis, mean) = found.into_parts();
+    w.unfactor(basis.as_mut())?;
+    for k in 0..basis.ncols() {
+        let sign = basis.col(k).iter().fold(0.0, |a, b| extreme(a, *b)).signum();
+        basis.col_mut(k).iter_mut().for_each(|x| *x *= sign);
+        decomposition.coefficients.row_mut(k).iter_mut().for_each(|a| *a *= sign);
+    }
+    let mean = mean.map(|mean| {
+        let mut column = Mat::from_fn(mean.len(), 1, |i, _| mean[i]);
+        w.unfactor(column.as_mut()).map(|()| column.col_as_slice(0).to_vec())
+    });
+    modes.begin(w.dim(), basis.ncols(), mean.is_some())?;
+    modes.publish(0..w.dim(), basis.as_ref(), mean.transpose()?.as_deref())?;
+    Ok(decomposition)
+}
+
+/// `F X`, and `sum_i W_ii <u_i²>`.
+fn weighted(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+) -> Result<(Mat<f64>, f64), PodError> {
+    let (n, m) = (x.dim(), x.times().len());
+    let (bytes, limit) = (8 * n as u128 * m as u128, options.memory_limit);
+    if bytes > u128::from(limit) {
+        return Err(PodError::Memory {
+            what: "the snapshots, which an inner product of coupled rows needs whole,",
+            bytes,
+            limit,
+            remedy: "raise the limit, or take weights for each unknown or the product of a grid",
+        });
+    }
+    let mut z = Mat::zeros(n, m);
+    crate::ensemble::read_checked(x, 0..n, 0..m, z.as_mut())?;
+    let diagonal = w.diagonal()?;
+    let energy =
+        |u: faer::ColRef<'_, f64>| -> f64 { u.iter().zip(&diagonal).map(|(u, w)| w * u * u).sum() };
+    let amplified = z.col_iter().map(energy).sum::<f64>() / m as f64;
+    w.factor(0..n, z.as_mut())?;
+    Ok((z, amplified))
+}

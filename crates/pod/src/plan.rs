@@ -1,0 +1,90 @@
+use crate::PodError;
+use crate::partition::Partition;
+
+/// How much is held at a time, within the memory that may be taken. It changes no bit of the result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Plan {
+    /// Rows that are read at a time: whole blocks.
+    pub tile: usize,
+    /// Leaves that are summed before the next ones are begun: a power of two.
+    pub group: usize,
+}
+
+/// What a decomposition must hold.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Demand {
+    pub partition: Partition,
+    pub snapshots: usize,
+    pub threads: usize,
+    /// Rows after a block that its factor needs.
+    pub reach: usize,
+    /// Bytes that one read should have.
+    pub read: usize,
+}
+
+impl Plan {
+    /// The largest steps that fit into `limit` bytes.
+    pub fn new(demand: &Demand, limit: u64) -> Result<Self, PodError> {
+        let block = demand.partition.block();
+        let row = 8 * demand.snapshots;
+        let wanted = (demand.read / row).max(8 * demand.reach).max(block);
+        let tiles = std::iter::successors(Some(wanted.next_multiple_of(block)), |tile| {
+            (*tile > block).then(|| (tile / 2).next_multiple_of(block))
+        });
+        // Enough groups for a journal to be worth while, enough leaves in each to share.
+        let threads = demand.threads.next_power_of_two();
+        let leaves = demand.partition.leaves() / 16;
+        let shares = [32, 16, 8, 4, 2, 1].map(|share| share * threads);
+        let few = shares.into_iter().filter(|group| *group <= leaves.max(4 * threads));
+        let mut plans = tiles.flat_map(|tile| few.clone().map(move |group| Self { tile, group }));
+        let fits = |plan: &Self| plan.bytes(demand) <= u128::from(limit);
+        plans.find(fits).ok_or_else(|| PodError::Memory {
+            what: "the correlation of the snapshots, block by block",
+            bytes: Self { tile: block, group: threads }.bytes(demand),
+            limit,
+            remedy: "raise the limit, take fewer threads or fewer snapshots",
+        })
+    }
+
+    /// Bytes held at once: tiles and their sums for each thread, sums on their way up the tree, and
+    /// the dense problems of the size of a sum.
+    fn bytes(self, demand: &Demand) -> u128 {
+        const DENSE: usize = 6;
+        let Demand { partition, snapshots, threads, reach, .. } = *demand;
+        let sum = 8 * (snapshots as u128).pow(2);
+        let tile = 8 * (self.tile + reach + partition.block()) as u128 * snapshots as u128;
+        let depth = |leaves: usize| u128::from(leaves.max(1).ilog2()) + 2;
+        let of_thread = tile + depth(self.group / threads) * sum;
+        let tree = depth(partition.leaves().div_ceil(self.group));
+        threads as u128 * of_thread + (tree + DENSE as u128) * sum
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn demand(threads: usize) -> Demand {
+        let partition = Partition::new(1_000_000, 200);
+        Demand { partition, snapshots: 200, threads, reach: 0, read: 16 << 20 }
+    }
+
+    #[test]
+    fn less_memory_makes_smaller_steps_until_there_is_none() {
+        let wide = Plan::new(&demand(2), 1 << 32).expect("plenty");
+        let tight = Plan::new(&demand(2), 20 << 20).expect("enough");
+        assert!(tight.tile < wide.tile, "{tight:?} {wide:?}");
+        assert!(tight.bytes(&demand(2)) <= 20 << 20);
+        let error = Plan::new(&demand(2), 1 << 20);
+        assert!(matches!(error, Err(PodError::Memory { limit: 1_048_576, .. })), "{error:?}");
+    }
+
+    #[test]
+    fn tiles_are_whole_blocks_and_groups_full_subtrees() {
+        for threads in 1..5 {
+            let plan = Plan::new(&demand(threads), 1 << 30).expect("plenty");
+            assert_eq!(plan.tile % demand(threads).partition.block(), 0);
+            assert!(plan.group.is_power_of_two() && plan.group >= threads);
+        }
+    }
+}

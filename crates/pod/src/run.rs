@@ -1,0 +1,74 @@
+use crate::agreement::{Failure, from_first};
+use crate::ensemble::Ensemble;
+use crate::partial::Partial;
+use crate::reduction::Part;
+use crate::{Execution, ModeStore, Pass, PodError};
+use std::cell::Cell;
+
+/// One decomposition under way: what is decomposed, who shares the work and where the modes go.
+pub(crate) struct Run<'a> {
+    pub ensemble: &'a Ensemble<'a>,
+    pub execution: Execution<'a>,
+    pub modes: &'a dyn ModeStore,
+    passes: Cell<usize>,
+}
+
+impl<'a> Run<'a> {
+    pub fn new(
+        ensemble: &'a Ensemble<'a>,
+        execution: Execution<'a>,
+        modes: &'a dyn ModeStore,
+    ) -> Self {
+        Self { ensemble, execution, modes, passes: Cell::new(0) }
+    }
+
+    /// A pass over the snapshots: the sum of what each leaf contributes.
+    pub fn over_snapshots(&self, name: &'static str, part: &Part<'_>) -> Result<Partial, PodError> {
+        let pass = self.pass(name, self.ensemble.shape().1, true);
+        let sync = || Ok(self.modes.sync()?);
+        self.ensemble.reduction(self.execution).sum(&pass, part, &sync)
+    }
+
+    /// A pass over columns of the mode store, which are few: nothing of it is kept.
+    pub fn over_modes(
+        &self,
+        name: &'static str,
+        columns: usize,
+        part: &Part<'_>,
+    ) -> Result<Partial, PodError> {
+        let execution = Execution { journal: &crate::NoJournal, ..self.execution };
+        let pass = self.pass(name, columns, false);
+        self.ensemble.reduction(execution).sum(&pass, part, &|| Ok(()))
+    }
+
+    /// Numbers that rank 0 finds for all: machines of different make round differently, and no two
+    /// ranks may decide differently.
+    pub fn from_first(
+        &self,
+        find: impl FnOnce() -> Result<Vec<f64>, PodError>,
+    ) -> Result<Vec<f64>, PodError> {
+        if self.execution.ranks.count() == 1 {
+            return find();
+        }
+        let told = from_first(
+            self.execution.ranks,
+            || Ok(find()?.iter().flat_map(|x| x.to_le_bytes()).collect()),
+            |error| Failure::new(0, error),
+        )?;
+        Ok(told.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+    }
+
+    /// Passes over the snapshots so far.
+    pub fn passes(&self) -> usize {
+        self.passes.get()
+    }
+
+    fn pass(&self, name: &'static str, snapshots: usize, over_snapshots: bool) -> Pass {
+        let number = self.passes.get() + usize::from(over_snapshots);
+        self.passes.set(number);
+        let partition = self.ensemble.partition;
+        let ranks = self.execution.ranks;
+        let mine = crate::partition::share(partition.leaves(), ranks.rank(), ranks.count());
+        Pass { number, name, rows: partition.rows_of(mine).len(), snapshots, over_snapshots }
+    }
+}

@@ -1,0 +1,236 @@
+//! Ranks share the rows: the same bits as one, and a failure of one is a failure of all.
+
+mod common;
+
+use common::{grid, random_matrix, times, with_singular_values};
+use faer::{Mat, MatMut, MatRef};
+use lumley_pod::{
+    ALGORITHMS, Execution, Identity, MemorySnapshots, ModeStore, Options, PodError, Ranks,
+    SnapshotSource, Truncation, all_or_none,
+};
+use std::io;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Mutex, PoisonError};
+
+/// Ranks that are threads of one process.
+struct Threads {
+    rank: usize,
+    to: Vec<Sender<Vec<u8>>>,
+    from: Vec<Receiver<Vec<u8>>>,
+}
+
+impl Ranks for Threads {
+    fn rank(&self) -> usize {
+        self.rank
+    }
+
+    fn count(&self) -> usize {
+        self.to.len()
+    }
+
+    fn send(&self, to: usize, message: &[u8]) {
+        assert_ne!(to, self.rank, "a message to oneself");
+        self.to[to].send(message.to_vec()).expect("the other rank listens");
+    }
+
+    fn receive(&self, from: usize) -> Vec<u8> {
+        self.from[from].recv().expect("the other rank speaks")
+    }
+}
+
+/// What each of `count` ranks makes of `work`.
+fn on_ranks<T: Send>(count: usize, work: impl Fn(&dyn Ranks) -> T + Sync) -> Vec<T> {
+    let mut senders: Vec<Vec<_>> = (0..count).map(|_| Vec::new()).collect();
+    let mut receivers: Vec<Vec<_>> = (0..count).map(|_| Vec::new()).collect();
+    for sender in &mut senders {
+        for receiver in &mut receivers {
+            let (to, from) = channel();
+            sender.push(to);
+            receiver.push(from);
+        }
+    }
+    let ranks = senders.into_iter().zip(receivers).enumerate();
+    let ranks = ranks.map(|(rank, (to, from))| Threads { rank, to, from });
+    let work = &work;
+    std::thread::scope(|scope| {
+        let handles: Vec<_> = ranks.map(|ranks| scope.spawn(move || work(&ranks))).collect();
+        handles.into_iter().map(|handle| handle.join().expect("no rank panics")).collect()
+    })
+}
+
+/// Modes in memory that several ranks write, as they would a file.
+#[derive(Default)]
+struct Shared(Mutex<(Option<Mat<f64>>, Option<Mat<f64>>)>);
+
+impl Shared {
+    fn with<T>(&self, f: impl FnOnce(&mut (Option<Mat<f64>>, Option<Mat<f64>>)) -> T) -> T {
+        f(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl ModeStore for Shared {
+    fn reserve(&self, rows: usize, columns: usize) -> io::Result<()> {
+        self.with(|(raw, _)| raw.get_or_insert_with(|| Mat::zeros(rows, columns)).nrows());
+        Ok(())
+    }
+
+    fn write(&self, rows: Range<usize>, columns: MatRef<'_, f64>) -> io::Result<()> {
+        self.with(|(raw, _)| {
+            let raw = raw.as_mut().expect("reserved");
+            raw.subrows_mut(rows.start, rows.len()).copy_from(columns);
+        });
+        Ok(())
+    }
+
+    fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> io::Result<()> {
+        self.with(|(raw, _)| {
+            out.copy_from(raw.as_ref().expect("reserved").subrows(rows.start, rows.len()));
+        });
+        Ok(())
+    }
+
+    fn sync(&self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn begin(&self, rows: usize, modes: usize, _mean: bool) -> io::Result<()> {
+        self.with(|(_, found)| found.get_or_insert_with(|| Mat::zeros(rows, modes)).nrows());
+        Ok(())
+    }
+
+    fn publish(
+        &self,
+        rows: Range<usize>,
+        modes: MatRef<'_, f64>,
+        _mean: Option<&[f64]>,
+    ) -> io::Result<()> {
+        self.with(|(_, found)| {
+            let found = found.as_mut().expect("begun");
+            found.subrows_mut(rows.start, rows.len()).copy_from(modes);
+        });
+        Ok(())
+    }
+}
+
+const N: usize = 60_002;
+
+#[test]
+fn any_number_of_ranks_gives_the_same_bits() {
+    let sigma: Vec<f64> = (0..9).map(|k| 0.1_f64.powi(k)).collect();
+    let w = grid(N);
+    let x = MemorySnapshots::new(with_singular_values(&sigma, (N, 12), &w, 7), times(12));
+    let options = Options {
+        truncation: Truncation::Modes(6),
+        center: true,
+        residuals: true,
+        ..Options::default()
+    };
+    for algorithm in ALGORITHMS.iter().filter(|a| a.name != "direct") {
+        let run = |count| {
+            let modes = Shared::default();
+            let found = on_ranks(count, |ranks| {
+                let execution = Execution { ranks, ..Execution::default() };
+                (algorithm.stream)(&x, &w, &options, execution, &modes).expect("a decomposition")
+            });
+            (modes.with(|(_, found)| found.take()).expect("modes"), found)
+        };
+        let (modes, one) = run(1);
+        assert_eq!(modes.ncols(), 6);
+        for count in [2, 3, 4, 7, 40] {
+            let (shared, all) = run(count);
+            assert_eq!(shared, modes, "{}, {count} ranks", algorithm.name);
+            assert!(all.iter().all(|found| *found == one[0]), "{}, {count} ranks", algorithm.name);
+        }
+    }
+}
+
+/// Rows above `good` cannot be read, and what was read is counted.
+struct Half {
+    x: MemorySnapshots,
+    good: usize,
+    reads: AtomicUsize,
+}
+
+impl SnapshotSource for Half {
+    fn dim(&self) -> usize {
+        self.x.dim()
+    }
+
+    fn times(&self) -> &[f64] {
+        self.x.times()
+    }
+
+    fn block(
+        &self,
+        rows: Range<usize>,
+        cols: Range<usize>,
+        out: MatMut<'_, f64>,
+    ) -> io::Result<()> {
+        self.reads.fetch_add(1, Ordering::Relaxed);
+        if rows.end > self.good {
+            return Err(io::Error::other(format!("half.npy: row {} cannot be read", rows.start)));
+        }
+        self.x.block(rows, cols, out)
+    }
+}
+
+/// No rank waits for the one that failed, and all say what it was.
+#[test]
+fn a_rank_that_cannot_read_ends_all_with_its_reason() {
+    let x = MemorySnapshots::new(random_matrix(N, 5, 1), times(5));
+    let x = Half { x, good: N - 1, reads: AtomicUsize::new(0) };
+    let w = Identity::new(N);
+    let modes = Shared::default();
+    let errors = on_ranks(4, |ranks| {
+        let execution = Execution { ranks, ..Execution::default() };
+        let found = (ALGORITHMS[0].stream)(&x, &w, &Options::default(), execution, &modes);
+        found.expect_err("the last rows cannot be read")
+    });
+    assert!(matches!(&errors[3], PodError::Medium(_)), "{:?}", errors[3]);
+    for error in &errors[..3] {
+        assert!(matches!(error, PodError::Elsewhere(_)), "{error:?}");
+        assert!(error.to_string().starts_with("rank 3: half.npy: row"), "{error}");
+    }
+}
+
+#[test]
+fn whole_columns_are_for_one_rank() {
+    let x = MemorySnapshots::new(random_matrix(40, 5, 1), times(5));
+    for (name, w) in common::products(40) {
+        for algorithm in ALGORITHMS.iter().filter(|a| a.name == "direct" || name == "sparse") {
+            let errors = on_ranks(2, |ranks| {
+                let execution = Execution { ranks, ..Execution::default() };
+                let store = Shared::default();
+                (algorithm.stream)(&x, &*w, &Options::default(), execution, &store)
+                    .expect_err("two ranks")
+            });
+            let refused = |e: &PodError| matches!(e, PodError::WholeColumns { ranks: 2 });
+            assert!(errors.iter().all(refused), "{}: {errors:?}", algorithm.name);
+        }
+    }
+}
+
+#[test]
+fn the_first_failure_is_told_to_all() {
+    for bad in [vec![0], vec![2], vec![1, 3]] {
+        let told = on_ranks(4, |ranks| {
+            let failed = bad.contains(&ranks.rank());
+            let mine = if failed { Err(PodError::NoModes) } else { Ok(ranks.rank()) };
+            all_or_none(ranks, mine, |e| lumley_pod::Failure::new(ranks.rank(), e))
+        });
+        for (rank, told) in told.iter().enumerate() {
+            let error = told.as_ref().expect_err("one has failed");
+            match error {
+                PodError::NoModes => assert_eq!(rank, bad[0]),
+                PodError::Elsewhere(failure) => assert_eq!(failure.rank, bad[0]),
+                _ => panic!("{error}"),
+            }
+        }
+    }
+    let fine = on_ranks(3, |ranks| {
+        all_or_none(ranks, Ok::<_, PodError>(ranks.rank()), |_| unreachable!("nothing fails"))
+    });
+    assert!(fine.into_iter().enumerate().all(|(rank, told)| told.expect("no failure") == rank));
+}
