@@ -1,7 +1,7 @@
 //! The correlation of the snapshots in time: the work that grows with n M².
 
 use crate::inner_product::support;
-use crate::kernel::{Substitution, add_gram};
+use crate::kernel::{add_gram, solve_right};
 use crate::partial::Partial;
 use crate::partition::Partition;
 use crate::run::Run;
@@ -19,7 +19,8 @@ pub(crate) struct Correlation {
 pub(crate) struct Preconditioner {
     /// Column k of `Z P` is column `order[k]` of Z.
     pub order: Vec<usize>,
-    pub substitution: Substitution,
+    /// U, unit upper triangular.
+    pub unit: Mat<f64>,
 }
 
 impl Preconditioner {
@@ -27,7 +28,7 @@ impl Preconditioner {
         for (&from, mut to) in self.order.iter().zip(y.as_mut().col_iter_mut()) {
             to.copy_from(z.col(from));
         }
-        self.substitution.apply(y);
+        solve_right(y, self.unit.as_ref());
     }
 }
 

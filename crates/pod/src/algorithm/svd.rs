@@ -2,7 +2,6 @@ use super::lift::lift;
 use super::snapshots::Temporal;
 use crate::correlation::{Correlation, Preconditioner, correlation};
 use crate::dense::{self, PivotedCholesky, product};
-use crate::kernel::Substitution;
 use crate::run::Run;
 use crate::{
     Decomposition, Execution, InnerProduct, ModeStore, Options, PodError, ReducedBasis,
@@ -98,11 +97,10 @@ fn triangular(run: &Run<'_>, first: &Correlation, sufficient: f64) -> Result<Mat
     if enough == [1.0] {
         return Ok(in_original_order(coarse.factor().as_ref(), &coarse.order));
     }
-    let substitution = Substitution::new(coarse.unit.as_ref());
-    let preconditioner = Preconditioner { order: coarse.order, substitution };
+    let preconditioner = Preconditioner { order: coarse.order, unit: coarse.unit };
     let second = correlation(run, "refinement", Some(&preconditioner))?;
     let fine = PivotedCholesky::new(second.matrix.as_ref(), 4.0 * f64::EPSILON);
-    let unit = Mat::from_fn(m, m, |i, j| coarse.unit[(fine.order[i], j)]);
+    let unit = Mat::from_fn(m, m, |i, j| preconditioner.unit[(fine.order[i], j)]);
     let a = product(fine.factor().as_ref(), unit.as_ref());
     Ok(in_original_order(a.as_ref(), &preconditioner.order))
 }
