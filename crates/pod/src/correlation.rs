@@ -1,5 +1,6 @@
 //! The correlation of the snapshots in time: the work that grows with n M².
 
+use crate::contiguous::{columns, columns_mut};
 use crate::inner_product::support;
 use crate::kernel::{add_gram, solve_right};
 use crate::partial::Partial;
@@ -25,8 +26,8 @@ pub(crate) struct Preconditioner {
 
 impl Preconditioner {
     fn apply(&self, z: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
-        for (&from, mut to) in self.order.iter().zip(y.as_mut().col_iter_mut()) {
-            to.copy_from(z.col(from));
+        for (&from, to) in self.order.iter().zip(columns_mut(y.as_mut())) {
+            columns(z.subcols(from, 1)).for_each(|from| to.copy_from_slice(from));
         }
         solve_right(y, self.unit.as_ref());
     }

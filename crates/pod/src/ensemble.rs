@@ -1,3 +1,4 @@
+use crate::contiguous::columns_mut;
 use crate::inner_product::support;
 use crate::mean::Mean;
 use crate::partition::Partition;
@@ -125,7 +126,7 @@ impl<'a> Ensemble<'a> {
             mean.subtract(x.as_mut());
         }
         if self.options.time_weights.is_some() {
-            for (column, s) in x.as_mut().col_iter_mut().zip(&self.scale[cols]) {
+            for (column, s) in columns_mut(x).zip(&self.scale[cols]) {
                 column.iter_mut().for_each(|x| *x *= s);
             }
         }

@@ -28,6 +28,7 @@
 mod agreement;
 mod algorithm;
 mod basis;
+mod contiguous;
 mod correlation;
 mod decomposition;
 mod dense;

@@ -1,3 +1,4 @@
+use crate::contiguous::{columns, columns_mut};
 use faer::{MatMut, MatRef};
 
 /// The time mean of some rows, in two parts: without the second, the rounding of a large mean
@@ -16,8 +17,8 @@ impl Mean {
     pub fn new(x: MatRef<'_, f64>, weights: &[f64]) -> Self {
         let average_from = |origin: &[f64]| {
             let mut mean = vec![0.0; x.nrows()];
-            for (q, column) in weights.iter().zip(x.col_iter()) {
-                for ((mean, x), origin) in mean.iter_mut().zip(column.iter()).zip(origin) {
+            for (q, column) in weights.iter().zip(columns(x)) {
+                for ((mean, x), origin) in mean.iter_mut().zip(column).zip(origin) {
                     *mean += q * (x - origin);
                 }
             }
@@ -44,8 +45,8 @@ impl Mean {
 }
 
 /// Subtracts one field from every column.
-pub(crate) fn subtract_from_columns(field: &[f64], mut x: MatMut<'_, f64>) {
-    for column in x.as_mut().col_iter_mut() {
+pub(crate) fn subtract_from_columns(field: &[f64], x: MatMut<'_, f64>) {
+    for column in columns_mut(x) {
         column.iter_mut().zip(field).for_each(|(x, f)| *x -= f);
     }
 }

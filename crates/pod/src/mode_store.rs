@@ -1,3 +1,4 @@
+use crate::contiguous::copy;
 use faer::{Mat, MatMut, MatRef};
 use std::io;
 use std::ops::Range;
@@ -113,9 +114,9 @@ impl ModeStore for MemoryModes {
         Ok(())
     }
 
-    fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> io::Result<()> {
+    fn read(&self, rows: Range<usize>, out: MatMut<'_, f64>) -> io::Result<()> {
         let held = self.held.read().unwrap_or_else(PoisonError::into_inner);
-        out.copy_from(held.columns.submatrix(rows.start, 0, rows.len(), out.ncols()));
+        copy(held.columns.submatrix(rows.start, 0, rows.len(), out.ncols()), out);
         Ok(())
     }
 
@@ -149,5 +150,5 @@ impl ModeStore for MemoryModes {
 }
 
 fn put(all: &mut Mat<f64>, rows: &Range<usize>, columns: MatRef<'_, f64>) {
-    all.submatrix_mut(rows.start, 0, rows.len(), columns.ncols()).copy_from(columns);
+    copy(columns, all.submatrix_mut(rows.start, 0, rows.len(), columns.ncols()));
 }

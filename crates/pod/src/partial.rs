@@ -50,6 +50,19 @@ pub(crate) fn extreme(first: f64, second: f64) -> f64 {
     if second.abs() > first.abs() * (1.0 + 1e-6) { second } else { first }
 }
 
+/// The extreme of an entry and those of a column. Most runs of a column have none that counts, which is
+/// seen without looking at one entry after the other.
+pub(crate) fn extreme_of(first: f64, column: &[f64]) -> f64 {
+    column.chunks(64).fold(first, |found, run| {
+        let largest = run.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        if extreme(found, largest) == found {
+            found
+        } else {
+            run.iter().fold(found, |a, b| extreme(a, *b))
+        }
+    })
+}
+
 /// Takes an integer from the front of `bytes`.
 pub(crate) fn integer(bytes: &mut &[u8]) -> Option<usize> {
     let (first, rest) = bytes.split_first_chunk::<8>()?;

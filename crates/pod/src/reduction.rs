@@ -110,6 +110,7 @@ impl Reduction<'_> {
                 journal.save(&entry, &encode_nodes(&nodes))?;
             }
         }
+        before_save()?;
         Ok(nodes)
     }
 

@@ -1,9 +1,10 @@
-use crate::agreement::{Failure, from_first};
+use crate::agreement::{Failure, all_or_none, from_first};
 use crate::ensemble::Ensemble;
 use crate::partial::Partial;
 use crate::reduction::Part;
 use crate::{Execution, ModeStore, Pass, PodError};
 use std::cell::Cell;
+use std::io;
 
 /// One decomposition under way: what is decomposed, who shares the work and where the modes go.
 pub(crate) struct Run<'a> {
@@ -56,6 +57,12 @@ impl<'a> Run<'a> {
             |error| Failure::new(0, error),
         )?;
         Ok(told.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+    }
+
+    /// Whether all ranks may go on after what each has done to its files.
+    pub fn all_or_none(&self, mine: io::Result<()>) -> Result<(), PodError> {
+        let ranks = self.execution.ranks;
+        all_or_none(ranks, mine.map_err(PodError::from), |error| Failure::new(ranks.rank(), error))
     }
 
     /// Passes over the snapshots so far.

@@ -142,11 +142,7 @@ fn with<T>(slot: &Slot<T>, work: impl FnOnce(&T) -> Result<(), FormatError>) -> 
 
 /// What a report draws of the first modes in the file `path`: they are read by blocks, and where no grid
 /// is given not at all.
-pub(super) fn drawn(
-    path: &Path,
-    grid: Option<FieldGrid>,
-    modes: usize,
-) -> Result<Option<DrawnModes>, Error> {
+pub(super) fn drawn(path: &Path, grid: Option<FieldGrid>) -> Result<Option<DrawnModes>, Error> {
     let Some(grid) = grid else { return Ok(None) };
     // Its checksum would take a pass over all modes.
     let all = NpzReader::open(path)?.unchecked(MODES)?;
@@ -155,7 +151,7 @@ pub(super) fn drawn(
         let expected = "one row for each number on the grid";
         return Err(FormatError::Shape { path, shape, expected }.into());
     }
-    let modes = modes.min(all.cols());
+    let modes = DrawnModes::COUNT.min(all.cols());
     let drawn = DrawnModes::sample(grid, modes, |rows| {
         let mut block = Mat::zeros(rows.len(), modes);
         all.read_block(rows, 0..modes, block.as_mut()).map(|()| block)

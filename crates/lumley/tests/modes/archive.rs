@@ -71,3 +71,17 @@ fn a_resumed_run_finds_its_columns() -> Outcome {
     assert!(!folder.path().join("modes.scratch").exists());
     Ok(())
 }
+
+/// A file that cannot be made is named.
+#[test]
+fn a_file_in_the_way_is_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let store = FileModes::new(folder.path());
+    fs::create_dir(folder.path().join("modes.scratch"))?;
+    fs::create_dir(folder.path().join("pod.npz.partial"))?;
+    let reserved = store.reserve(2, 1).expect_err("a folder is in the way").to_string();
+    let begun = store.begin(2, 1, false).expect_err("a folder is in the way").to_string();
+    assert!(reserved.contains("modes.scratch"), "{reserved}");
+    assert!(begun.contains("pod.npz.partial"), "{begun}");
+    Ok(())
+}

@@ -35,7 +35,6 @@ fn under_a_limit() {
 }
 
 /// What is said where files may have `kibibytes`.
-#[cfg(target_os = "linux")]
 fn limited(folder: &Path, kibibytes: usize) -> std::io::Result<String> {
     let this = std::env::current_exe()?;
     let run = "exec \"$0\" --exact faults::under_a_limit --nocapture";
@@ -48,7 +47,6 @@ fn limited(folder: &Path, kibibytes: usize) -> std::io::Result<String> {
 }
 
 /// Full while the modes are written, and full when only the small arrays are missing.
-#[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_leaves_the_older_modes() -> Outcome {
     let folder = tempfile::tempdir()?;
@@ -65,19 +63,5 @@ fn a_full_disk_leaves_the_older_modes() -> Outcome {
     publish_all(folder.path())?;
     let new = BasisFile::load(&path)?;
     assert_eq!((new.modes, new.mean), (modes(), Some(mean())));
-    Ok(())
-}
-
-/// A file that cannot be made is named.
-#[test]
-fn a_file_in_the_way_is_named() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let store = FileModes::new(folder.path());
-    std::fs::create_dir(folder.path().join("modes.scratch"))?;
-    std::fs::create_dir(folder.path().join("pod.npz.partial"))?;
-    let reserved = store.reserve(2, 1).expect_err("a folder is in the way").to_string();
-    let begun = store.begin(2, 1, false).expect_err("a folder is in the way").to_string();
-    assert!(reserved.contains("modes.scratch"), "{reserved}");
-    assert!(begun.contains("pod.npz.partial"), "{begun}");
     Ok(())
 }

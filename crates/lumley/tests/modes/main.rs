@@ -1,6 +1,7 @@
 //! Modes on their way to disk: any order, many threads, many ranks, full disks.
 
 mod archive;
+#[cfg(target_os = "linux")]
 mod faults;
 mod ranks;
 

@@ -5,7 +5,7 @@ use crate::dense::{self, product};
 use crate::ensemble::{Ensemble, check_dimensions, read_checked};
 use crate::kernel::add_gram;
 use crate::mean::Mean;
-use crate::partial::extreme;
+use crate::partial::extreme_of;
 use crate::partition::Partition;
 use crate::spectrum::Spectrum;
 use crate::{
@@ -174,7 +174,7 @@ pub(super) fn finish_in_space(
     let mut phi = psi;
     w.unfactor(phi.as_mut())?;
     for k in 0..kept {
-        let sign = phi.col(k).iter().fold(0.0, |a, b| extreme(a, *b)).signum();
+        let sign = extreme_of(0.0, phi.col_as_slice(k)).signum();
         phi.col_mut(k).iter_mut().for_each(|x| *x *= sign);
         coefficients.row_mut(k).iter_mut().for_each(|a| *a *= sign);
     }

@@ -80,7 +80,7 @@ pub(super) fn publish(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<(), PodE
     let (stored, kept) = change.shape();
     let (block, modes) = (run.ensemble.partition.block(), run.modes);
     let centred = run.ensemble.options.center;
-    modes.begin(n, kept, centred)?;
+    run.all_or_none(modes.begin(n, kept, centred))?;
     let part = |rows: Range<usize>| {
         for rows in Partition::pieces(rows, block) {
             let mut columns = Mat::zeros(rows.len(), stored + usize::from(centred));

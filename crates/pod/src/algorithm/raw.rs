@@ -1,9 +1,10 @@
 //! Columns that are nearly modes, as they come out of the snapshots.
 
+use crate::contiguous;
 use crate::correlation::mirror;
 use crate::ensemble::{Ensemble, Tile};
 use crate::kernel::add_gram;
-use crate::partial::{Partial, extreme};
+use crate::partial::{Partial, extreme_of};
 use crate::run::Run;
 use crate::{ModeStore, PodError};
 use faer::linalg::matmul::matmul;
@@ -43,7 +44,7 @@ pub(super) struct RawModes {
 pub(super) fn raw_modes(run: &Run<'_>, lift: &Lift<'_>) -> Result<RawModes, PodError> {
     let (n, m) = run.ensemble.shape();
     let (kept, options) = (lift.to_modes.ncols(), run.ensemble.options);
-    run.modes.reserve(n, kept + usize::from(options.center))?;
+    run.all_or_none(run.modes.reserve(n, kept + usize::from(options.center)))?;
     let residuals = if options.residuals { m } else { 0 };
     let (ensemble, modes) = (run.ensemble, run.modes);
     let part = |rows: Range<usize>| {
@@ -70,8 +71,8 @@ impl Columns {
 ///
 /// * `weighted`: the same rows of F times the columns
 pub(super) fn add_columns(sum: &mut Partial, columns: MatRef<'_, f64>, weighted: MatRef<'_, f64>) {
-    for (of_column, column) in sum.extremes.iter_mut().zip(columns.col_iter()) {
-        *of_column = column.iter().fold(*of_column, |a, b| extreme(a, *b));
+    for (of_column, column) in sum.extremes.iter_mut().zip(contiguous::columns(columns)) {
+        *of_column = extreme_of(*of_column, column);
     }
     let count = columns.ncols();
     add_gram(sum.matrix_mut(count, count), weighted);

@@ -1,7 +1,7 @@
 //! Inner products that couple all rows: everything is done on `Z = F X` in memory.
 
 use crate::ensemble::Ensemble;
-use crate::partial::extreme;
+use crate::partial::extreme_of;
 use crate::run::Run;
 use crate::snapshots::MemorySnapshots;
 use crate::{
@@ -32,7 +32,7 @@ pub(super) fn with_columns(
     let (mut basis, mean) = found.into_parts();
     w.unfactor(basis.as_mut())?;
     for k in 0..basis.ncols() {
-        let sign = basis.col(k).iter().fold(0.0, |a, b| extreme(a, *b)).signum();
+        let sign = extreme_of(0.0, basis.col_as_slice(k)).signum();
         basis.col_mut(k).iter_mut().for_each(|x| *x *= sign);
         decomposition.coefficients.row_mut(k).iter_mut().for_each(|a| *a *= sign);
     }

@@ -1,4 +1,5 @@
 use super::{InnerProduct, InnerProductError, Reach};
+use crate::contiguous::columns_mut;
 use faer::MatMut;
 use std::io;
 use std::ops::Range;
@@ -63,8 +64,8 @@ impl InnerProduct for Diagonal {
     }
 }
 
-fn update_rows(by: &[f64], mut x: MatMut<'_, f64>, f: impl Fn(f64, f64) -> f64) {
-    for column in x.as_mut().col_iter_mut() {
+fn update_rows(by: &[f64], x: MatMut<'_, f64>, f: impl Fn(f64, f64) -> f64) {
+    for column in columns_mut(x) {
         for (x, &by) in column.iter_mut().zip(by) {
             *x = f(*x, by);
         }

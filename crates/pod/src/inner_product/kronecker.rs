@@ -1,4 +1,5 @@
 use super::{InnerProduct, InnerProductError, Reach};
+use crate::contiguous::columns_mut;
 use faer::MatMut;
 use std::io;
 use std::ops::Range;
@@ -119,8 +120,7 @@ impl InnerProduct for Kronecker {
 
     fn apply(&self, mut x: MatMut<'_, f64>) -> io::Result<()> {
         self.factor(0..x.nrows(), x.as_mut())?;
-        for column in x.as_mut().col_iter_mut() {
-            let x = column.try_as_col_major_mut().expect("columns are contiguous").as_slice_mut();
+        for x in columns_mut(x.as_mut()) {
             for (t, stride) in self.strides() {
                 let at = |i: usize| t.factor[i / stride % t.size()];
                 for i in (0..x.len()).rev() {
@@ -133,8 +133,7 @@ impl InnerProduct for Kronecker {
     }
 
     fn factor(&self, rows: Range<usize>, mut x: MatMut<'_, f64>) -> io::Result<()> {
-        for column in x.as_mut().col_iter_mut() {
-            let x = column.try_as_col_major_mut().expect("columns are contiguous").as_slice_mut();
+        for x in columns_mut(x.as_mut()) {
             for (t, stride) in self.strides() {
                 multiply(t, stride, rows.start, x);
             }
@@ -143,8 +142,7 @@ impl InnerProduct for Kronecker {
     }
 
     fn unfactor(&self, mut x: MatMut<'_, f64>) -> io::Result<()> {
-        for column in x.as_mut().col_iter_mut() {
-            let x = column.try_as_col_major_mut().expect("columns are contiguous").as_slice_mut();
+        for x in columns_mut(x.as_mut()) {
             for (t, stride) in self.strides() {
                 for i in (0..x.len()).rev() {
                     let (d, beside) = t.factor[i / stride % t.size()];

@@ -5,9 +5,6 @@ use super::{DrawnModes, FieldGrid, PodReport};
 use crate::report::figure::{Axis, Drawing, Figure, HeatMap, LineChart, Series};
 use crate::report::html::Section;
 
-/// How many modes and coefficients are drawn.
-const SHOWN: usize = 6;
-
 pub(super) fn coefficients(report: &PodReport) -> Figure {
     let times: Vec<f64> = match report.times.as_slice() {
         [] => (1..=report.snapshots).map(|k| k as f64).collect(),
@@ -23,7 +20,7 @@ pub(super) fn coefficients(report: &PodReport) -> Figure {
             .draw_at(346.0, 160.0)
     };
     let panels: Vec<Drawing> =
-        report.coefficients.iter().take(SHOWN).enumerate().map(panel).collect();
+        report.coefficients.iter().take(DrawnModes::COUNT).enumerate().map(panel).collect();
     let caption = "The first temporal coefficients, *a*_{n} = (*u*, *Φ*_{n}), (7), in the unit of \
         the data times that of the inner product. Pairs of equal shape and shifted phase are \
         travelling structures.";
@@ -41,39 +38,33 @@ pub(super) fn section(modes: Option<&DrawnModes>) -> Section {
     }
 }
 
-/// The number of each mode that is drawn, from 1, and its components.
-fn shown(modes: &DrawnModes) -> impl Iterator<Item = (usize, &[DrawnField])> {
-    (1..=SHOWN).zip(modes.fields.chunks(modes.grid().components))
-}
-
 /// One chart for each component, the modes as curves.
 fn lines(modes: &DrawnModes) -> Figure {
-    let grid = modes.grid();
-    let chart = |component: usize| {
-        let y = Axis::new(&format!("*Φ*_{{n}}{}", of_component(grid, component)), "");
+    let chart = |(component, fields): (usize, &Vec<DrawnField>)| {
+        let y = Axis::new(&format!("*Φ*_{{n}}{}", of_component(modes.grid(), component)), "");
         let chart = LineChart::new(Axis::new("node", "").count(), y);
-        let curve = |chart: LineChart, (n, fields): (usize, &[DrawnField])| {
-            let DrawnField { x, values, .. } = &fields[component];
-            chart.series(Series::line(&format!("*Φ*_{{{n}}}"), x, values).colour(n - 1))
+        let curve = |chart: LineChart, (k, field): (usize, &DrawnField)| {
+            let name = format!("*Φ*_{{{}}}", k + 1);
+            chart.series(Series::line(&name, &field.x, &field.values).colour(k))
         };
-        shown(modes).fold(chart, curve).draw(280.0)
+        fields.iter().enumerate().fold(chart, curve).draw(280.0)
     };
-    let charts: Vec<Drawing> = (0..grid.components).map(chart).collect();
+    let charts: Vec<Drawing> = modes.fields.iter().enumerate().map(chart).collect();
     Drawing::stack(&charts).figure("modes", "The first modes on the grid.")
 }
 
 /// A panel for each mode and component.
 fn pictures(modes: &DrawnModes) -> Figure {
     let grid = modes.grid();
-    let panel = |n: usize, component: usize, field: &DrawnField| {
-        let title = format!("*Φ*_{{{n}}}{}", of_component(grid, component));
-        let (x, y) = (Axis::new("node *i*", "").count(), Axis::new("node *j*", "").count());
-        let map = HeatMap::new((x, &field.x), (y, &field.y), field.values.clone());
+    let panel = |k: usize, component: usize| {
+        let DrawnField { x, y, values } = &modes.fields[component][k];
+        let title = format!("*Φ*_{{{}}}{}", k + 1, of_component(grid, component));
+        let axis = |name: &str| Axis::new(name, "").count();
+        let map = HeatMap::new((axis("node *i*"), x), (axis("node *j*"), y), values.clone());
         map.draw_at(350.0, map.height_of_equal_scales(350.0)).titled(&title)
     };
-    let panels = shown(modes).flat_map(|(n, fields)| {
-        fields.iter().enumerate().map(move |(component, field)| panel(n, component, field))
-    });
+    let of_mode = |k: usize| (0..grid.components).map(move |component| panel(k, component));
+    let panels: Vec<Drawing> = (0..modes.fields[0].len()).flat_map(of_mode).collect();
     let slice = match grid.nodes[2] {
         1 => String::new(),
         nz => format!(" Drawn is the middle slice, {} of {nz} in the third direction.", nz / 2 + 1),
@@ -82,7 +73,7 @@ fn pictures(modes: &DrawnModes) -> Figure {
         "The first modes on the grid, each with its own colours. Red and blue have opposite signs; \
          the sign of a whole mode is a convention.{slice}"
     );
-    Drawing::panels(2, &panels.collect::<Vec<_>>()).figure("modes", &caption)
+    Drawing::panels(2, &panels).figure("modes", &caption)
 }
 
 fn of_component(grid: FieldGrid, component: usize) -> String {

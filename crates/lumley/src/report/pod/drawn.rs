@@ -52,11 +52,15 @@ const ROWS: usize = 1 << 14;
 /// evenly spread, of a curve about four thousand, and among them all peaks.
 ///
 /// ```
+/// use faer::Mat;
 /// use lumley::report::{DrawnModes, FieldGrid};
+/// use std::{io, ops::Range};
 ///
 /// let grid = FieldGrid { nodes: [5, 1, 1], components: 2 };
-/// let mode = faer::Mat::from_fn(10, 1, |i, _| i as f64);
-/// let read = |rows: std::ops::Range<usize>| Ok(mode.subrows(rows.start, rows.len()).to_owned());
+/// let mode = Mat::from_fn(10, 1, |i, _| i as f64);
+/// let read = |rows: Range<usize>| -> io::Result<Mat<f64>> {
+///     Ok(mode.subrows(rows.start, rows.len()).to_owned())
+/// };
 /// let drawn = DrawnModes::sample(grid, 1, read)?;
 /// assert_eq!(drawn.grid(), grid);
 /// # Ok::<(), std::io::Error>(())
@@ -257,15 +261,14 @@ mod tests {
         }
         let (drawn, rows_read) = sample([1_000_003, 1, 1], 2, spiky);
         assert_eq!(rows_read, 2 * 1_000_003);
-        let peaks = [(123_457, 9.0), (765_432, -7.0)].into_iter().enumerate();
-        for (fields, (mode, (place, peak))) in
-            drawn.fields.iter().flat_map(|fields| peaks.clone().map(move |peak| (fields, peak)))
-        {
-            let DrawnField { x, values, .. } = &fields[mode];
-            assert!(x.len() == values.len() && x.len() <= 4 * INTERVALS, "{}", x.len());
-            let at = x.iter().position(|node| *node == f64::from(place + 1)).expect("the peak");
-            assert_eq!(values[at], peak);
-            assert!(x.is_sorted() && (x[0], x[x.len() - 1]) == (1.0, 1_000_003.0));
+        for fields in &drawn.fields {
+            for (field, (place, peak)) in fields.iter().zip([(123_457, 9.0), (765_432, -7.0)]) {
+                let DrawnField { x, values, .. } = field;
+                assert!(x.len() == values.len() && x.len() <= 4 * INTERVALS, "{}", x.len());
+                let at = x.iter().position(|node| *node == f64::from(place + 1));
+                assert_eq!(values[at.expect("the peak")], peak);
+                assert!(x.is_sorted() && (x[0], x[x.len() - 1]) == (1.0, 1_000_003.0));
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ mod journal;
 mod open;
 mod watch;
 
-use super::decompose::{SWEEP, algorithm, headline, summary_of, warnings};
+use super::decompose::{algorithm, headline, summary_of, warnings};
 use super::modes::{FileModes, drawn};
 use super::pipeline::Task;
 use super::report::{columns, provenance, save};
@@ -208,7 +208,7 @@ impl PodInput {
         let mut manifest = Manifest::read(folder).map_err(directory::DirectoryError::from)?;
         manifest.stage("pod", seconds);
         directory::write(folder, SUMMARY, summary.to_json().as_bytes())?;
-        let modes = drawn(&folder.join("pod.npz"), opened.grid, found.size().min(SWEEP))?;
+        let modes = drawn(&folder.join("pod.npz"), opened.grid)?;
         let report = PodReport {
             source: self.path.display().to_string(),
             snapshots: summary.record.snapshots,
