@@ -160,6 +160,8 @@ impl Error {
             Self::Format(FormatError::Io { .. }) | Self::Directory(DirectoryError::Io { .. }) => {
                 true
             }
+            // It does not say; what may be gone on with must not be lost.
+            Self::Elsewhere(failure) => !failure.of_computation,
             _ => false,
         }
     }

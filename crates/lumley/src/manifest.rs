@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, Read as _};
+use std::io::{self, Read as _, Seek as _};
 use std::path::{Path, PathBuf};
 
 /// Name of the file in a run directory; that it says `lumley` is what makes a directory a run.
@@ -77,6 +77,9 @@ pub struct Manifest {
     pub command: String,
     /// The inputs and their checksums.
     pub inputs: Vec<Input>,
+    /// What a command that goes on with an unfinished run must agree with, beside the inputs.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub settings: String,
     /// The machine.
     pub machine: Machine,
     /// The stages and their wall-clock times, in order.
@@ -97,29 +100,36 @@ pub struct Input {
     pub name: String,
     /// Its length in bytes.
     pub bytes: u64,
-    /// CRC-32C of its bytes, in hexadecimal.
+    /// CRC-32C of its bytes, in hexadecimal; of a file over 64 MiB that of its first and last MiB, which
+    /// it says, so that provenance costs no pass over the data.
     pub crc32c: String,
 }
 
 impl Input {
-    /// The file at `path`, read in pieces.
+    /// The file at `path`.
     ///
     /// # Errors
     /// The failure of the medium.
     pub fn of_file(path: &Path) -> io::Result<Self> {
+        const LONG: u64 = 64 << 20;
         let mut file = File::open(path)?;
-        let mut buffer = vec![0; 1 << 20];
-        let (mut bytes, mut crc) = (0, 0);
-        loop {
-            let read = file.read(&mut buffer)?;
-            if read == 0 {
-                break;
+        let bytes = file.metadata()?.len();
+        let mut crc = 0;
+        if bytes > LONG {
+            let mut end = vec![0; 1 << 20];
+            for place in [io::SeekFrom::Start(0), io::SeekFrom::End(-(1 << 20))] {
+                file.seek(place)?;
+                file.read_exact(&mut end)?;
+                crc = crc32c::crc32c_append(crc, &end);
             }
-            bytes += read as u64;
-            crc = crc32c::crc32c_append(crc, &buffer[..read]);
+        } else {
+            let mut content = Vec::new();
+            file.read_to_end(&mut content)?;
+            crc = crc32c::crc32c(&content);
         }
         let name = path.display().to_string();
-        Ok(Self { name, bytes, crc32c: format!("{crc:08x}") })
+        let of = if bytes > LONG { " of the first and last MiB" } else { "" };
+        Ok(Self { name, bytes, crc32c: format!("{crc:08x}{of}") })
     }
 
     /// The input called `name` with this content.
@@ -188,6 +198,7 @@ impl Manifest {
             case: case.to_owned(),
             command: command.to_owned(),
             inputs: Vec::new(),
+            settings: String::new(),
             machine: Machine::this(),
             stages: Vec::new(),
             complete: false,

@@ -1,7 +1,7 @@
 //! What a person sees of long work: a bar on a terminal, plain lines elsewhere, always on stderr.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::io::IsTerminal;
+use std::io::{self, IsTerminal as _, Write as _};
 use std::time::{Duration, Instant};
 
 /// Seconds between plain lines.
@@ -61,7 +61,7 @@ impl Progress {
         self.started = Instant::now();
         (self.part_started, self.done_before) = (self.started, 0);
         self.spoken = self.started;
-        if self.loud && std::io::stderr().is_terminal() {
+        if self.loud && io::stderr().is_terminal() {
             let bar =
                 ProgressBar::with_draw_target(Some(length as u64), ProgressDrawTarget::stderr());
             let style = "{prefix:>20} {wide_bar} {percent:>3} %  {per_sec}  {eta} left  {msg}";
@@ -92,7 +92,8 @@ impl Progress {
             let passed = self.part_started.elapsed().as_secs_f64();
             let now_done = done.saturating_sub(self.done_before).max(1);
             let left = passed / now_done as f64 * self.length.saturating_sub(done) as f64;
-            eprintln!("{:>20}  {done} of {}  {left:.0} s left  {message}", self.stage, self.length);
+            let Self { stage, length, .. } = self;
+            tell(&format!("{stage:>20}  {done} of {length}  {left:.0} s left  {message}"));
         }
     }
 
@@ -102,7 +103,7 @@ impl Progress {
         self.bar.finish_and_clear();
         self.bar = ProgressBar::hidden();
         if self.loud {
-            eprintln!("{:>20}  {message}  ({seconds:.2} s)", self.stage);
+            tell(&format!("{:>20}  {message}  ({seconds:.2} s)", self.stage));
         }
         seconds
     }
@@ -111,8 +112,14 @@ impl Progress {
     pub fn warn(&self, messages: &[String]) {
         if self.loud {
             for message in messages {
-                self.bar.suspend(|| eprintln!("{:>20}  {message}", "warning:"));
+                self.bar.suspend(|| tell(&format!("{:>20}  {message}", "warning:")));
             }
         }
     }
+}
+
+/// A line on stderr, whole beside those of other processes. Where it cannot be written, as to a log on a
+/// full disk, nobody hears it and the work goes on.
+pub(crate) fn tell(line: &str) {
+    let _ = io::stderr().write_all(format!("{line}\n").as_bytes());
 }

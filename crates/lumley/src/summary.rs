@@ -148,8 +148,11 @@ pub struct Decomposition {
     /// Passes over the snapshots that it took.
     #[serde(default)]
     pub passes: usize,
-    /// Sum of all eigenvalues.
+    /// Sum of all eigenvalues, and what an approximation left out.
     pub total_energy: f64,
+    /// Most that an eigenvalue may be smaller than the exact one; absent where they are exact.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub error_bound: Option<f64>,
     /// Eigenvalues lambda, largest first.
     pub eigenvalues: Vec<f64>,
     /// Singular values of W^(1/2) X: sigma² = M lambda.

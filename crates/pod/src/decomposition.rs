@@ -29,8 +29,12 @@ pub struct Decomposition {
     /// [`noise_floor`](Self::noise_floor) are noise.
     pub spectrum: Vec<f64>,
     /// Mean energy `<(u, u)>` of the snapshots (less their mean, where subtracted): the sum of the
-    /// spectrum.
+    /// spectrum, and of what an approximation left out.
     pub total_energy: f64,
+    /// Energy that an approximation left out, up to round-off: every eigenvalue lies at most this far
+    /// above the one found in its place, or above zero where none was, and none lies below. Nothing
+    /// for the exact algorithms. See [`APPROXIMATIONS`](crate::APPROXIMATIONS).
+    pub error_bound: Option<f64>,
     /// Eigenvalue that the algorithm cannot tell from zero.
     pub noise_floor: f64,
     /// Number of eigenvalues above the noise floor: the rank of the snapshots as far as this
@@ -50,6 +54,11 @@ impl Decomposition {
     /// Number r of modes.
     pub fn size(&self) -> usize {
         self.eigenvalues.len()
+    }
+
+    /// Mean energy that the modes leave of the snapshots, the discarded eigenvalues added up.
+    pub fn energy_left(&self) -> f64 {
+        self.spectrum[self.size()..].iter().sum::<f64>() + self.error_bound.unwrap_or(0.0)
     }
 
     /// Share of the energy in each mode, in %.
@@ -74,7 +83,8 @@ impl Decomposition {
             *tail += l;
             Some(error)
         };
-        let mut errors: Vec<f64> = self.spectrum.iter().rev().scan(0.0, add).collect();
+        let unseen = self.error_bound.unwrap_or(0.0);
+        let mut errors: Vec<f64> = self.spectrum.iter().rev().scan(unseen, add).collect();
         errors.reverse();
         errors.truncate(self.size());
         errors

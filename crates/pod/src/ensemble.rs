@@ -1,3 +1,4 @@
+use crate::approximation::Previous;
 use crate::contiguous::columns_mut;
 use crate::inner_product::support;
 use crate::mean::Mean;
@@ -26,6 +27,8 @@ pub(crate) struct Ensemble<'a> {
     /// `sum_i W_ii <u_i²>` where W couples all rows: the energy that errors of the size of the
     /// entries have. Zero where it is the energy of the snapshots itself.
     pub amplified: f64,
+    /// What stands in the columns before those of the snapshots, if there is something.
+    pub previous: Option<&'a Previous<'a>>,
     pub partition: Partition,
     plan: Plan,
     buffers: Mutex<Vec<Mat<f64>>>,
@@ -46,6 +49,16 @@ impl<'a> Ensemble<'a> {
         product: &'a dyn InnerProduct,
         options: &'a Options,
     ) -> Result<Self, PodError> {
+        Self::for_sums(source, product, options, source.times().len())
+    }
+
+    /// The same for sums that have fewer columns than M.
+    pub fn for_sums(
+        source: &'a dyn SnapshotSource,
+        product: &'a dyn InnerProduct,
+        options: &'a Options,
+        width: usize,
+    ) -> Result<Self, PodError> {
         let m = source.times().len();
         check_dimensions(source, product)?;
         check_truncation(options.truncation)?;
@@ -54,15 +67,8 @@ impl<'a> Ensemble<'a> {
             Some(_) => time_weights.iter().map(|q| (m as f64 * q).sqrt()).collect(),
             None => vec![1.0; m],
         };
-        let partition = Partition::new(source.dim(), m);
-        let reach = match product.reach() {
-            Reach::Rows(after) => after,
-            Reach::All => 0, // only whole columns are read then, not tiles
-        };
-        let (threads, read) = (options.par.degree().max(1), source.read_size());
-        let demand = Demand { partition, snapshots: m, threads, reach, read };
-        let plan = Plan::new(&demand, options.memory_limit)?;
-        let (amplified, buffers) = (0.0, Mutex::default());
+        let (partition, plan) = planned(source, product, options, [m, width])?;
+        let (amplified, previous, buffers) = (0.0, None, Mutex::default());
         Ok(Self {
             source,
             product,
@@ -70,6 +76,30 @@ impl<'a> Ensemble<'a> {
             time_weights,
             scale,
             amplified,
+            previous,
+            partition,
+            plan,
+            buffers,
+        })
+    }
+
+    /// The same snapshots with what is known of previous ones in columns before theirs.
+    pub fn beside(&self, previous: &'a Previous<'a>) -> Result<Self, PodError> {
+        let share = (previous.counts[1] / self.scale.len() as f64).sqrt();
+        let mut scale = vec![1.0; previous.columns()];
+        scale.extend(self.scale.iter().map(|s| s * share));
+        let Self { source, product, options, amplified, .. } = *self;
+        let (partition, plan) = planned(source, product, options, [scale.len(); 2])?;
+        let (time_weights, buffers) = (self.time_weights.clone(), Mutex::default());
+        let previous = Some(previous);
+        Ok(Self {
+            source,
+            product,
+            options,
+            time_weights,
+            scale,
+            amplified,
+            previous,
             partition,
             plan,
             buffers,
@@ -114,10 +144,15 @@ impl<'a> Ensemble<'a> {
 
     /// Reads rows of all snapshots, centred and weighted.
     fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> Result<Option<Mean>, PodError> {
-        self.source.block(rows, 0..self.scale.len(), out.as_mut())?;
-        let mean = self.options.center.then(|| Mean::new(out.as_ref(), &self.time_weights));
-        self.prepare(mean.as_ref(), 0..self.scale.len(), out);
-        Ok(mean)
+        let (columns, m) = (self.scale.len(), self.time_weights.len());
+        let mut x = out.as_mut().subcols_mut(columns - m, m);
+        self.source.block(rows.clone(), 0..m, x.as_mut())?;
+        let mean = self.options.center.then(|| Mean::new(x.as_ref(), &self.time_weights));
+        self.prepare(mean.as_ref(), columns - m..columns, x);
+        match self.previous {
+            None => Ok(mean),
+            Some(previous) => Ok(previous.read(rows, mean, out.subcols_mut(0, columns - m))?),
+        }
     }
 
     /// Centres and weights columns `cols` of some rows, whose mean this is.
@@ -137,8 +172,8 @@ impl<'a> Ensemble<'a> {
     pub fn not_finite(&self, rows: Range<usize>) -> PodError {
         let search = || -> Result<(), PodError> {
             for rows in Partition::pieces(rows, self.plan.tile) {
-                let mut x = Mat::zeros(rows.len(), self.scale.len());
-                read_checked(self.source, rows, 0..self.scale.len(), x.as_mut())?;
+                let mut x = Mat::zeros(rows.len(), self.time_weights.len());
+                read_checked(self.source, rows, 0..self.time_weights.len(), x.as_mut())?;
             }
             Err(PodError::Overflow)
         };
@@ -162,7 +197,10 @@ impl<'a> Ensemble<'a> {
         let (snapshots, centred) = (self.scale.len(), self.options.center);
         let first = values.first().map_or(0.0, |l| snapshots as f64 * l);
         let round_off = (4.0 * f64::EPSILON).powi(2) * first.max(self.amplified + steady);
-        Spectrum::new(values, round_off, squaring).ok_or(PodError::NoEnergy { snapshots, centred })
+        let mut spectrum = Spectrum::new(values, round_off, squaring)
+            .ok_or(PodError::NoEnergy { snapshots, centred })?;
+        spectrum.left_out = self.previous.map(|previous| previous.left_out / snapshots as f64);
+        Ok(spectrum)
     }
 
     /// Energy that goes missing where products of weighted snapshots are formed: `M eps lambda_1`, or
@@ -171,6 +209,26 @@ impl<'a> Ensemble<'a> {
         let first = lambda.first().map_or(0.0, |l| self.scale.len() as f64 * l);
         f64::EPSILON * first.max(8.0 * self.amplified)
     }
+}
+
+/// The partition for so many columns, and the steps in which sums of them are taken.
+///
+/// * `columns`: those that are read, and those of the sums, each with as many rows as are read
+fn planned(
+    source: &dyn SnapshotSource,
+    product: &dyn InnerProduct,
+    options: &Options,
+    columns: [usize; 2],
+) -> Result<(Partition, Plan), PodError> {
+    let [snapshots, width] = columns;
+    let partition = Partition::new(source.dim(), snapshots);
+    let reach = match product.reach() {
+        Reach::Rows(after) => after,
+        Reach::All => 0, // only whole columns are read then, not tiles
+    };
+    let (threads, read) = (options.par.degree().max(1), source.read_size());
+    let demand = Demand { partition, snapshots, sum: snapshots * width, threads, reach, read };
+    Ok((partition, Plan::new(&demand, options.memory_limit)?))
 }
 
 /// Snapshots exist and have the length that the inner product was made for.
@@ -188,7 +246,8 @@ pub(crate) fn check_dimensions(
     Ok(())
 }
 
-fn check_truncation(truncation: Truncation) -> Result<(), PodError> {
+/// At least one mode, or a share of the energy.
+pub(crate) fn check_truncation(truncation: Truncation) -> Result<(), PodError> {
     match truncation {
         Truncation::Modes(0) => Err(PodError::NoModes),
         Truncation::Energy(fraction) if !(fraction > 0.0 && fraction <= 1.0) => {

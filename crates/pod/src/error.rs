@@ -71,7 +71,7 @@ pub enum PodError {
     /// An entry is NaN or infinite.
     #[error(
         "snapshot {snapshot} (time {time} s) holds {value} in row {row}, counted from 0: \
-         every entry must be finite; remove or repair this snapshot"
+         every entry must be finite; remove or repair this snapshot, or leave such out (--skip-non-finite)"
     )]
     NonFinite {
         /// Index of the snapshot, from 0.
@@ -137,6 +137,24 @@ pub enum PodError {
         "the smallest modes lost their orthogonality to round-off: ask for fewer modes or take `svd`"
     )]
     LostOrthogonality,
+    /// An old basis and new snapshots that update it are not centred alike.
+    #[error(
+        "the mean was {} the snapshots of the old basis: do the same with the new ones",
+        if *.centred { "subtracted from" } else { "left in" }
+    )]
+    Centring {
+        /// Whether the old basis has a mean.
+        centred: bool,
+    },
+    /// The modes of an old basis are not orthonormal in the inner product of its update.
+    #[error(
+        "the modes of the old basis are off orthonormality by {defect:.1e} in this inner product: \
+         update it with the weights that it was made with"
+    )]
+    OldModes {
+        /// Largest entry of `Phiᵀ W Phi - I`.
+        defect: f64,
+    },
     /// An algorithm or an inner product needs whole columns, of which each rank has some rows.
     #[error(
         "{ranks} ranks share the rows, but this algorithm or inner product needs whole columns: \

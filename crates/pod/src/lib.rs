@@ -27,6 +27,7 @@
 
 mod agreement;
 mod algorithm;
+mod approximation;
 mod basis;
 mod contiguous;
 mod correlation;
@@ -40,6 +41,7 @@ mod inner_product;
 mod journal;
 mod kernel;
 mod mean;
+mod mode_source;
 mod mode_store;
 mod note;
 mod options;
@@ -49,12 +51,14 @@ mod plan;
 mod ranks;
 mod reduction;
 mod run;
+mod selection;
 mod snapshots;
 mod spectrum;
 pub mod time_weights;
 
 pub use agreement::{Failure, all_or_none, from_first};
 pub use algorithm::{ALGORITHMS, Algorithm, Stream, auto, direct, method_of_snapshots, svd};
+pub use approximation::{APPROXIMATIONS, OldBasis, incremental, randomized, update};
 pub use basis::ReducedBasis;
 pub use decomposition::Decomposition;
 pub use error::PodError;
@@ -64,9 +68,11 @@ pub use inner_product::{
     Diagonal, Identity, InnerProduct, InnerProductError, Kronecker, Reach, SparseSpd, Tridiagonal,
 };
 pub use journal::{Journal, NoJournal};
+pub use mode_source::ModeSource;
 pub use mode_store::{MemoryModes, ModeStore};
 pub use note::Note;
 pub use options::{Options, Truncation};
 pub use ranks::{Alone, Ranks};
+pub use selection::{Selection, finite_snapshots};
 pub use snapshots::{MemorySnapshots, SnapshotSource};
 pub use time_weights::TimeWeightsError;

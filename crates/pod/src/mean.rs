@@ -37,6 +37,19 @@ impl Mean {
         self.remainder.extend(lower.remainder);
     }
 
+    /// What a field on the same rows has over this mean.
+    pub fn difference(&self, field: &[f64]) -> impl Iterator<Item = f64> {
+        let parts = field.iter().zip(&self.field).zip(&self.remainder);
+        parts.map(|((u, mean), remainder)| (u - mean) - remainder)
+    }
+
+    /// The mean of two sets of snapshots, the other of which has this share in it.
+    pub fn mixed(mut self, other: &[f64], share: f64) -> Self {
+        let gap: Vec<f64> = self.difference(other).collect();
+        self.field.iter_mut().zip(gap).for_each(|(mean, gap)| *mean += share * gap);
+        self
+    }
+
     /// Subtracts the mean from every column.
     pub fn subtract(&self, mut x: MatMut<'_, f64>) {
         subtract_from_columns(&self.field, x.as_mut());

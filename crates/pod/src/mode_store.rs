@@ -98,6 +98,12 @@ impl MemoryModes {
         (columns, mean)
     }
 
+    /// What a look at the modes and at the mean gives.
+    pub(crate) fn with<T>(&self, look: impl FnOnce(&Mat<f64>, Option<&Vec<f64>>) -> T) -> T {
+        let held = self.held.read().unwrap_or_else(PoisonError::into_inner);
+        look(&held.columns, held.mean.as_ref())
+    }
+
     fn held(&self) -> RwLockWriteGuard<'_, Held> {
         self.held.write().unwrap_or_else(PoisonError::into_inner)
     }

@@ -15,6 +15,8 @@ pub(crate) struct Plan {
 pub(crate) struct Demand {
     pub partition: Partition,
     pub snapshots: usize,
+    /// Numbers in one sum over the rows.
+    pub sum: usize,
     pub threads: usize,
     /// Rows after a block that its factor needs.
     pub reach: usize,
@@ -50,8 +52,8 @@ impl Plan {
     /// the dense problems of the size of a sum.
     fn bytes(self, demand: &Demand) -> u128 {
         const DENSE: usize = 6;
-        let Demand { partition, snapshots, threads, reach, .. } = *demand;
-        let sum = 8 * (snapshots as u128).pow(2);
+        let Demand { partition, snapshots, sum, threads, reach, .. } = *demand;
+        let sum = 8 * sum as u128;
         let tile = 8 * (self.tile + reach + partition.block()) as u128 * snapshots as u128;
         let depth = |leaves: usize| u128::from(leaves.max(1).ilog2()) + 2;
         let of_thread = tile + depth(self.group / threads) * sum;
@@ -66,7 +68,7 @@ mod tests {
 
     fn demand(threads: usize) -> Demand {
         let partition = Partition::new(1_000_000, 200);
-        Demand { partition, snapshots: 200, threads, reach: 0, read: 16 << 20 }
+        Demand { partition, snapshots: 200, sum: 200 * 200, threads, reach: 0, read: 16 << 20 }
     }
 
     #[test]

@@ -11,6 +11,8 @@ pub(crate) struct Spectrum {
     /// is under the floor is round-off of the snapshots themselves and the number above it is
     /// their rank.
     pub squaring: Option<f64>,
+    /// Energy that an approximation left out and no eigenvalue holds.
+    pub left_out: Option<f64>,
 }
 
 impl Spectrum {
@@ -22,7 +24,17 @@ impl Spectrum {
             *value = value.max(0.0);
         }
         values.first().filter(|l| **l >= f64::MIN_POSITIVE && **l > round_off)?;
-        Some(Self { values, floor: round_off.max(squaring.unwrap_or(0.0)), squaring })
+        Some(Self {
+            values,
+            floor: round_off.max(squaring.unwrap_or(0.0)),
+            squaring,
+            left_out: None,
+        })
+    }
+
+    /// Energy of the snapshots.
+    pub fn total(&self) -> f64 {
+        self.values.iter().sum::<f64>() + self.left_out.unwrap_or(0.0)
     }
 
     /// Eigenvalues above the floor.
@@ -35,7 +47,7 @@ impl Spectrum {
         match truncation {
             Truncation::Modes(modes) => modes,
             Truncation::Energy(fraction) => {
-                let wanted = fraction * self.values.iter().sum::<f64>();
+                let wanted = fraction * self.total();
                 let mut sum = 0.0;
                 let short = |l: &&f64| {
                     sum += **l;

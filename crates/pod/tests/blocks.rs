@@ -5,8 +5,8 @@ mod common;
 use common::{products, random_matrix, times, with_singular_values};
 use faer::{MatMut, Par};
 use lumley_pod::{
-    ALGORITHMS, Identity, InnerProduct, MemorySnapshots, Options, PodError, ReducedBasis,
-    SnapshotSource, Truncation, auto, method_of_snapshots, svd,
+    ALGORITHMS, APPROXIMATIONS, Identity, InnerProduct, MemorySnapshots, Options, PodError,
+    ReducedBasis, SnapshotSource, Truncation, auto, method_of_snapshots, svd,
 };
 use std::io;
 use std::ops::Range;
@@ -34,6 +34,41 @@ fn threads_do_not_change_a_bit() {
                 assert_eq!(one.coefficients, many.coefficients, "{}, {product}", one.algorithm);
             }
         }
+    }
+}
+
+/// A source that is best read in large blocks: with less memory they are smaller, and the bits the same.
+#[test]
+fn memory_does_not_change_a_bit() {
+    struct Large(MemorySnapshots);
+    impl SnapshotSource for Large {
+        fn dim(&self) -> usize {
+            self.0.dim()
+        }
+        fn times(&self) -> &[f64] {
+            self.0.times()
+        }
+        fn block(&self, r: Range<usize>, c: Range<usize>, out: MatMut<'_, f64>) -> io::Result<()> {
+            self.0.block(r, c, out)
+        }
+        fn read_size(&self) -> usize {
+            8 << 20
+        }
+    }
+    let n = 60_001;
+    let w = common::grid(n);
+    let sigma: Vec<f64> = (0..9).map(|k| 0.1_f64.powi(k)).collect();
+    let x = Large(MemorySnapshots::new(with_singular_values(&sigma, (n, 90), &w, 7), times(90)));
+    for algorithm in ALGORITHMS.iter().chain(APPROXIMATIONS).filter(|a| a.name != "direct") {
+        let basis = |memory_limit| {
+            let truncation = Truncation::Modes(4);
+            let options =
+                Options { truncation, residuals: true, memory_limit, ..Options::default() };
+            (algorithm.run)(&x, &w, &options).expect("a decomposition")
+        };
+        let (plenty, little) = (basis(1 << 32), basis(26 << 20));
+        assert_eq!(plenty.modes, little.modes, "{}", algorithm.name);
+        assert_eq!(plenty.decomposition, little.decomposition, "{}", algorithm.name);
     }
 }
 

@@ -5,8 +5,8 @@ mod common;
 use common::{times, with_singular_values};
 use faer::{Mat, MatMut, MatRef, Par};
 use lumley_pod::{
-    ALGORITHMS, Algorithm, Decomposition, Diagonal, Execution, Journal, MemoryModes,
-    MemorySnapshots, ModeStore, Options, PodError, SnapshotSource, Truncation,
+    ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition, Diagonal, Execution, Journal,
+    MemoryModes, MemorySnapshots, ModeStore, Options, PodError, SnapshotSource, Truncation,
 };
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -166,7 +166,8 @@ fn death_at_any_operation_loses_nothing() {
     let sigma: Vec<f64> = (0..7).map(|k| 0.01_f64.powi(k)).collect();
     let w = Diagonal::new(vec![1.0; N]).expect("positive");
     let x = MemorySnapshots::new(with_singular_values(&sigma, (N, 9), &w, 3), times(9));
-    for algorithm in ALGORITHMS.iter().filter(|a| a.name != "direct") {
+    let all = ALGORITHMS.iter().chain(APPROXIMATIONS);
+    for algorithm in all.filter(|a| !["direct", "incremental"].contains(&a.name)) {
         let whole = Life::new();
         let (expected, operations) = whole.run(algorithm, &x, usize::MAX >> 1);
         let expected = expected.expect("a decomposition");

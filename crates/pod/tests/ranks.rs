@@ -5,8 +5,8 @@ mod common;
 use common::{grid, random_matrix, times, with_singular_values};
 use faer::{Mat, MatMut, MatRef};
 use lumley_pod::{
-    ALGORITHMS, Execution, Identity, MemorySnapshots, ModeStore, Options, PodError, Ranks,
-    SnapshotSource, Truncation, all_or_none,
+    ALGORITHMS, APPROXIMATIONS, Execution, Identity, MemorySnapshots, ModeStore, OldBasis, Options,
+    PodError, Ranks, SnapshotSource, Truncation, all_or_none, svd, update,
 };
 use std::io;
 use std::ops::Range;
@@ -86,7 +86,8 @@ impl ModeStore for Shared {
 
     fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> io::Result<()> {
         self.with(|(raw, _)| {
-            out.copy_from(raw.as_ref().expect("reserved").subrows(rows.start, rows.len()));
+            let raw = raw.as_ref().expect("reserved");
+            out.copy_from(raw.submatrix(rows.start, 0, rows.len(), out.ncols()));
         });
         Ok(())
     }
@@ -127,7 +128,8 @@ fn any_number_of_ranks_gives_the_same_bits() {
         residuals: true,
         ..Options::default()
     };
-    for algorithm in ALGORITHMS.iter().filter(|a| a.name != "direct") {
+    let on_ranks_too = ALGORITHMS.iter().chain(APPROXIMATIONS);
+    for algorithm in on_ranks_too.filter(|a| !["direct", "incremental"].contains(&a.name)) {
         let run = |count| {
             let modes = Shared::default();
             let found = on_ranks(count, |ranks| {
@@ -143,6 +145,33 @@ fn any_number_of_ranks_gives_the_same_bits() {
             assert_eq!(shared, modes, "{}, {count} ranks", algorithm.name);
             assert!(all.iter().all(|found| *found == one[0]), "{}, {count} ranks", algorithm.name);
         }
+    }
+}
+
+#[test]
+fn a_basis_is_updated_on_any_number_of_ranks() {
+    let (sigma, w): (Vec<f64>, _) = ((0..9).map(|k| 0.5_f64.powi(k)).collect(), grid(N));
+    let x = with_singular_values(&sigma, (N, 40), &w, 7);
+    let part = |cols: Range<usize>| {
+        MemorySnapshots::new(x.subcols(cols.start, cols.len()).to_owned(), times(40)[cols].to_vec())
+    };
+    let truncation = Truncation::Modes(6);
+    let options = Options { truncation, center: true, ..Options::default() };
+    let basis = svd(&part(0..20), &w, &options).expect("a decomposition");
+    let run = |count| {
+        let modes = Shared::default();
+        let found = on_ranks(count, |ranks| {
+            let execution = Execution { ranks, ..Execution::default() };
+            let old = OldBasis { decomposition: &basis, modes: &basis };
+            update(old, &part(20..40), &w, &options, execution, &modes).expect("an update")
+        });
+        (modes.with(|(_, found)| found.take()).expect("modes"), found)
+    };
+    let (modes, one) = run(1);
+    for count in [2, 3, 7] {
+        let (shared, all) = run(count);
+        assert_eq!(shared, modes, "{count} ranks");
+        assert!(all.iter().all(|found| *found == one[0]), "{count} ranks");
     }
 }
 
@@ -199,7 +228,9 @@ fn a_rank_that_cannot_read_ends_all_with_its_reason() {
 fn whole_columns_are_for_one_rank() {
     let x = MemorySnapshots::new(random_matrix(40, 5, 1), times(5));
     for (name, w) in common::products(40) {
-        for algorithm in ALGORITHMS.iter().filter(|a| a.name == "direct" || name == "sparse") {
+        let whole = |name: &str| ["direct", "incremental"].contains(&name);
+        let all = ALGORITHMS.iter().chain(APPROXIMATIONS);
+        for algorithm in all.filter(|a| whole(a.name) || name == "sparse") {
             let errors = on_ranks(2, |ranks| {
                 let execution = Execution { ranks, ..Execution::default() };
                 let store = Shared::default();

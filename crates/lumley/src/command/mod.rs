@@ -12,7 +12,7 @@ mod verify;
 use crate::Error;
 use crate::case::{Case, CaseError};
 use crate::directory::Existing;
-use crate::progress::Progress;
+use crate::progress::{Progress, tell};
 use crate::ranks::{Job, together};
 use clap::{Args, Parser, Subcommand};
 use lumley_pod::Ranks;
@@ -106,7 +106,7 @@ pub fn main() -> ExitCode {
 }
 
 fn report_failure(who: &str, error: &Error) -> u8 {
-    eprintln!("error: {who}{error}");
+    tell(&format!("error: {who}{error}"));
     error.exit_code()
 }
 

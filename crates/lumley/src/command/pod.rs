@@ -8,8 +8,9 @@ use crate::ranks::path_of_first;
 use crate::report::FieldGrid;
 use crate::run::{PodInput, Task, decompose_snapshots};
 use clap::{Args, ValueEnum};
-use lumley_pod::{Ranks, Truncation};
+use lumley_pod::{ALGORITHMS, APPROXIMATIONS, Ranks, Truncation};
 use std::path::PathBuf;
+use std::time::Duration;
 
 #[derive(Args)]
 pub(super) struct Arguments {
@@ -37,21 +38,30 @@ pub(super) struct Arguments {
     /// Share of the energy that the modes hold; 0.9999 unless given
     #[arg(long, value_name = "F")]
     energy: Option<f64>,
-    /// Algorithm
-    #[arg(long, default_value = "auto", value_parser = methods())]
-    method: String,
+    /// A basis that the snapshots update: POD of what it was made of and of these
+    #[arg(long, value_name = "OLD.npz|DIR")]
+    update: Option<PathBuf>,
+    /// Algorithm; auto unless given, and incremental to update
+    #[arg(long, value_parser = methods())]
+    method: Option<String>,
     /// Subtract the mean over time
     #[arg(long)]
     center: bool,
     /// Most memory to take, such as 200MB or 4GiB; by default a quarter of the machine's
     #[arg(long, value_name = "SIZE", value_parser = size)]
     memory: Option<u64>,
+    /// Leave out snapshots that hold NaN or infinity; else they are an error
+    #[arg(long)]
+    skip_non_finite: bool,
     /// Go on with an unfinished decomposition
     #[arg(long)]
     resume: bool,
     /// Threads; by default all
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
+    /// Least time between notes of how far it is, in s, for --resume
+    #[arg(long, value_name = "SECONDS", default_value_t = 5)]
+    checkpoint: u64,
     #[command(flatten)]
     output: Output,
 }
@@ -90,7 +100,9 @@ fn size(text: &str) -> Result<u64, String> {
 }
 
 fn methods() -> clap::builder::PossibleValuesParser {
-    clap::builder::PossibleValuesParser::new(lumley_pod::ALGORITHMS.iter().map(|a| a.name))
+    clap::builder::PossibleValuesParser::new(
+        ALGORITHMS.iter().chain(APPROXIMATIONS).map(|a| a.name),
+    )
 }
 
 impl Arguments {
@@ -112,6 +124,8 @@ impl Arguments {
             components: self.components,
             choice: self.choice()?,
             memory: self.memory,
+            skip_non_finite: self.skip_non_finite,
+            update: self.update.clone(),
         };
         let stem = self.snapshots_file.file_stem().unwrap_or_default();
         let name = format!("{}-pod", stem.to_string_lossy());
@@ -122,6 +136,7 @@ impl Arguments {
         };
         let mut task = Task::new(&target, self.output.existing(self.resume));
         task.threads = self.threads.map_or(task.threads, usize::from);
+        task.checkpoint = Duration::from_secs(self.checkpoint);
         let (directory, summary) = decompose_snapshots(&input, &task, ranks, progress)?;
         if ranks.rank() > 0 {
             return Ok(());
@@ -130,7 +145,9 @@ impl Arguments {
             say(&summary.to_json())?;
         } else {
             let energy = summary.pod.cumulative_percent.last().copied().unwrap_or_default();
-            say(&format!("{} modes, {energy:.4} % of the energy", summary.pod.modes))?;
+            let bound = summary.pod.error_bound.map(|bound| format!(", error bound {bound:.1e}"));
+            let bound = bound.unwrap_or_default();
+            say(&format!("{} modes, {energy:.4} % of the energy{bound}", summary.pod.modes))?;
             say(&format!("{}", directory.join("pod.npz").display()))?;
             say(&format!("{}", directory.join("report.html").display()))?;
         }
@@ -150,7 +167,9 @@ impl Arguments {
             }
             (None, share) => Truncation::Energy(share.unwrap_or(0.9999)),
         };
-        Ok(PodChoice { method: self.method.clone(), truncation, center: self.center })
+        let unset = if self.update.is_some() { "incremental" } else { "auto" };
+        let method = self.method.clone().unwrap_or_else(|| unset.into());
+        Ok(PodChoice { method, truncation, center: self.center })
     }
 
     fn field_grid(&self) -> Option<FieldGrid> {

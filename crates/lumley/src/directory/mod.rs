@@ -70,7 +70,7 @@ impl Workplace {
         if existing.replace && !existing.resume {
             clear(&partial)?;
         }
-        for folder in ["", "basis"] {
+        for folder in ["", "basis", "figures"] {
             sweep(&partial.join(folder))?;
         }
         Ok(Self { target, partial, existing, _lock: lock })
@@ -97,6 +97,16 @@ impl Workplace {
     /// [`DirectoryError::Io`].
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), DirectoryError> {
         write(&self.partial, name, bytes)
+    }
+
+    /// Makes a folder of the run, or leaves one that an unfinished run has.
+    ///
+    /// # Errors
+    /// [`DirectoryError::Io`].
+    pub fn folder(&self, name: &str) -> Result<PathBuf, DirectoryError> {
+        let path = self.partial.join(name);
+        fs::create_dir_all(&path).map_err(DirectoryError::io("create", &path))?;
+        Ok(path)
     }
 
     /// Makes a folder of the run, empty.

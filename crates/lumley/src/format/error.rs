@@ -1,3 +1,4 @@
+use lumley_pod::InnerProductError;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -69,17 +70,13 @@ pub enum FormatError {
         /// Bytes that there are.
         found: u64,
     },
-    /// A number that is not finite.
-    #[error("{}: {value} in snapshot {snapshot}, row {row}\n  help: snapshots must be finite; remove or repair this one", path.display())]
-    NonFinite {
+    /// Weights that make no inner product.
+    #[error("{}: {source}", path.display())]
+    Weights {
         /// The file.
         path: PathBuf,
-        /// The snapshot, counted from 0.
-        snapshot: usize,
-        /// The row in it, counted from 0.
-        row: usize,
-        /// The number.
-        value: f64,
+        /// What is wrong with them.
+        source: InnerProductError,
     },
     /// There is not one time for each snapshot.
     #[error("{}: {snapshots} snapshots, but {times} times\n  help: give one time for each snapshot", path.display())]
@@ -118,7 +115,7 @@ pub enum FormatError {
         path: PathBuf,
         /// The name asked for.
         name: String,
-        /// The names it has.
+        /// The names it has, the first of them.
         available: Vec<String>,
     },
     /// The bytes of a member do not have the checksum that the archive keeps.

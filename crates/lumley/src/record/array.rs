@@ -6,9 +6,6 @@ use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// Longest zarr.json of an array that is read, in bytes.
-const METADATA_LIMIT: u64 = 1 << 16;
-
 /// An array of a record: Zarr v3, float64, little-endian, not compressed, CRC-32C behind each chunk.
 #[derive(Debug, Clone)]
 pub(super) struct Array {
@@ -88,9 +85,20 @@ impl Array {
     /// More rows than are committed stand there after a crash between the array's description and the record's.
     pub fn check_metadata(&self, rows: usize) -> Result<(), RecordError> {
         let path = self.metadata_path();
-        let text = read_text(&path, METADATA_LIMIT)?;
-        let found: Value = serde_json::from_str(&text)
-            .map_err(|source| RecordError::Json { path: path.clone(), source })?;
+        let written = text_of(&self.metadata(usize::MAX));
+        // Other programs may write the same with more blanks, but not with more entries: a file of
+        // nothing but brackets takes a hundred times its length when it is parsed.
+        let text = read_text(&path, 2 * written.len() as u64)?;
+        let commas = |text: &str| text.matches(',').count();
+        if commas(&text) > commas(&written) {
+            return Err(RecordError::Invalid {
+                path,
+                key: "number of entries".into(),
+                value: commas(&text).to_string(),
+                expected: format!("at most {}", commas(&written)),
+            });
+        }
+        let found: Value = serde_json::from_str(&text).map_err(RecordError::json(&path))?;
         let found_rows = found.pointer("/shape/0").and_then(Value::as_u64).unwrap_or(0);
         let found_rows = usize::try_from(found_rows).unwrap_or(usize::MAX);
         let expected = self.metadata(found_rows.max(rows));
@@ -104,8 +112,8 @@ impl Array {
             Some(key) => value.get(key).map_or("missing".to_owned(), Value::to_string),
             None => format!("{} keys", value.as_object().map_or(0, serde_json::Map::len)),
         };
-        let value = show(&found).chars().take(80).collect();
-        Err(RecordError::Invalid { path, key: key.to_owned(), value, expected: show(&expected) })
+        let [value, expected] = [&found, &expected].map(|v| show(v).chars().take(80).collect());
+        Err(RecordError::Invalid { path, key: key.to_owned(), value, expected })
     }
 
     /// Writes chunk (i, j) row by row: `row(r)` gives what is known of row r of the chunk, the rest is NaN.
@@ -155,11 +163,11 @@ impl Array {
         Err(self.damaged(i, j, damage))
     }
 
-    /// The numbers of chunk (i, j), row by row, as many as its shape says.
-    pub fn read_chunk(&self, i: usize, j: usize) -> Result<Vec<f64>, RecordError> {
+    /// The numbers of chunk (i, j) in little-endian bytes, row by row, as many as its shape says.
+    pub fn read_chunk(&self, i: usize, j: usize) -> Result<Vec<u8>, RecordError> {
         self.check_chunk(i, j)?;
         let path = self.chunk_path(i, j);
-        let bytes = fs::read(&path).map_err(RecordError::read("read", &path))?;
+        let mut bytes = fs::read(&path).map_err(RecordError::read("read", &path))?;
         let (numbers, stored) = bytes.split_last_chunk().ok_or_else(|| {
             let found = bytes.len() as u64; // it shrank since it was checked
             self.damaged(i, j, Damage::Length { found, expected: found.max(4) })
@@ -168,7 +176,8 @@ impl Array {
         if stored != computed {
             return Err(self.damaged(i, j, Damage::Checksum { stored, computed }));
         }
-        Ok(numbers.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+        bytes.truncate(bytes.len() - 4);
+        Ok(bytes)
     }
 
     fn damaged(&self, i: usize, j: usize, damage: Damage) -> RecordError {
@@ -185,15 +194,15 @@ impl Array {
     /// The first `kept` rows of the chunks (i, 0), (i, 1), ..., in their whole width, one after the other.
     pub fn read_band(&self, i: usize, kept: usize) -> Result<Vec<f64>, RecordError> {
         // Read before room is made: there is no more of it than the files take.
-        let chunks: Vec<Vec<f64>> = (0..self.chunk_columns())
+        let chunks: Vec<Vec<u8>> = (0..self.chunk_columns())
             .map(|j| self.read_chunk(i, j))
             .collect::<Result<_, RecordError>>()?;
         let mut band = vec![0.0; kept * self.width()];
         for (row, values) in band.chunks_exact_mut(self.width()).enumerate() {
             for (j, chunk) in chunks.iter().enumerate() {
                 let columns = self.columns_of(j);
-                let from = &chunk[row * self.chunk[1]..][..columns.len()];
-                values[columns].copy_from_slice(from);
+                let from = numbers(&chunk[8 * row * self.chunk[1]..]);
+                values[columns].iter_mut().zip(from).for_each(|(to, from)| *to = from);
             }
         }
         Ok(band)
@@ -230,6 +239,11 @@ impl Array {
     }
 }
 
+/// The numbers that stand in the bytes of a chunk.
+pub(super) fn numbers(bytes: &[u8]) -> impl Iterator<Item = f64> {
+    bytes.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number))
+}
+
 fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     match fs::read_dir(folder) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
@@ -248,10 +262,15 @@ fn make_folder(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// A description as it stands in a file.
+fn text_of(value: &Value) -> String {
+    format!("{value:#}\n")
+}
+
 /// Writes a description, and the folders on the way to it.
 pub(super) fn write_json(path: &Path, value: &Value) -> Result<(), (PathBuf, io::Error)> {
     let written = make_folder(path.parent().expect("a description lies in a folder"))
-        .and_then(|()| atomic::write(path, format!("{value:#}\n").as_bytes()));
+        .and_then(|()| atomic::write(path, text_of(value).as_bytes()));
     written.map_err(|source| (path.to_owned(), source))
 }
 

@@ -1,4 +1,5 @@
 use super::RecordError;
+use super::error::printable;
 use lumley_fem::{Point, UniformGrid};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -159,7 +160,7 @@ pub(super) fn check_parts<'a>(
     for (name, quantities) in parts {
         let key = format!("name in {kind}");
         if !is_name(name) {
-            return invalid(path, key, format!("{name:?}"), NAME);
+            return invalid(path, key, format!("{:?}", printable(name)), NAME);
         }
         if seen.contains(&name) {
             return invalid(path, key, format!("{name:?} twice"), "each name once");

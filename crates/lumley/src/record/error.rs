@@ -46,12 +46,16 @@ pub enum RecordError {
         path: PathBuf,
     },
     /// A description is not JSON, or not of the form that lumley writes.
-    #[error("{}: {source}\n  help: the file was changed or damaged; record again or restore a copy", path.display())]
+    #[error("{}: line {line}, column {column}: {message}\n  help: the file was changed or damaged; record again or restore a copy", path.display())]
     Json {
         /// The file.
         path: PathBuf,
-        /// What is wrong, and where.
-        source: serde_json::Error,
+        /// The line, counted from 1.
+        line: usize,
+        /// The column, counted from 1.
+        column: usize,
+        /// What is wrong.
+        message: String,
     },
     /// An entry of a description has a value that cannot be.
     #[error("{}: {key} is {value}, expected {expected}\n  help: a record holds what its description says; correct one of them", path.display())]
@@ -220,4 +224,23 @@ impl RecordError {
     ) -> impl Fn(io::Error) -> Self + 'a {
         move |source| Self::Read { action, path: path.to_owned(), source }
     }
+
+    /// For `map_err`: the description `path` is not as it should be.
+    pub(super) fn json(path: &Path) -> impl Fn(serde_json::Error) -> Self + '_ {
+        |source| {
+            let (line, column, text) = (source.line(), source.column(), source.to_string());
+            let place = format!(" at line {line} column {column}");
+            let message = printable(text.strip_suffix(&place).unwrap_or(&text));
+            Self::Json { path: path.to_owned(), line, column, message }
+        }
+    }
+}
+
+/// The beginning of a text from a file, fit for a message: keys and names may be long, or made to play
+/// tricks on a terminal.
+pub(super) fn printable(text: &str) -> String {
+    let shown: String = text.chars().take(120).collect();
+    let ellipsis = if shown.len() < text.len() { "..." } else { "" };
+    let visible = shown.replace(|c: char| c.is_control(), "\u{fffd}");
+    format!("{visible}{ellipsis}")
 }

@@ -1,5 +1,5 @@
 use super::RecordError;
-use super::array::Array;
+use super::array::{Array, numbers};
 use faer::MatMut;
 use lumley_pod::SnapshotSource;
 use std::collections::VecDeque;
@@ -7,13 +7,14 @@ use std::io;
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Numbers that are kept of the chunks read last: 64 MiB.
-const CACHE: usize = 1 << 23;
+/// Bytes that are kept of the chunks read last.
+const CACHE: usize = 1 << 26;
 
 /// Chunks that are kept at most: they are searched one by one.
 const CACHED_CHUNKS: usize = 64;
 
-type Chunk = Arc<Vec<f64>>;
+/// Numbers in little-endian bytes.
+type Chunk = Arc<Vec<u8>>;
 
 /// The snapshots of one frame of a record, read by blocks and checked on the way.
 ///
@@ -76,16 +77,17 @@ impl FrameReader {
         assert!(rows.end <= self.values.width() && cols.end <= self.times.len(), "a block inside");
         assert_eq!((out.nrows(), out.ncols()), (rows.len(), cols.len()), "room for the block");
         let [height, width] = self.values.chunk;
-        for i in parts(&cols, height) {
-            for j in parts(&rows, width) {
+        // Rows first: the next block begins with the chunks that this one ends with.
+        for j in parts(&rows, width) {
+            let row = overlap(&rows, j, width);
+            for i in parts(&cols, height) {
                 let chunk = self.chunk([i, j])?;
-                let (col, row) = (overlap(&cols, i, height), overlap(&rows, j, width));
-                for snapshot in col {
-                    let from = &chunk[(snapshot - i * height) * width..][..width];
-                    let from = &from[row.start - j * width..row.end - j * width];
+                for snapshot in overlap(&cols, i, height) {
+                    let first = (snapshot - i * height) * width + row.start - j * width;
                     let to = out.as_mut().col_mut(snapshot - cols.start);
                     let to = to.subrows_mut(row.start - rows.start, row.len());
-                    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+                    let from = numbers(&chunk[8 * first..]);
+                    to.iter_mut().zip(from).for_each(|(to, from)| *to = from);
                 }
             }
         }
@@ -109,6 +111,11 @@ impl SnapshotSource for FrameReader {
         out: MatMut<'_, f64>,
     ) -> io::Result<()> {
         self.read_block(rows, cols, out).map_err(io::Error::other)
+    }
+
+    /// A chunk in each snapshot: then every chunk is read once.
+    fn read_size(&self) -> usize {
+        8 * self.values.chunk[1] * self.times.len()
     }
 }
 

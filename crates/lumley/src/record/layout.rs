@@ -72,7 +72,7 @@ impl Layout {
         let frames = self.root.join("frames");
         let folders = metadata.frames.iter().map(|frame| frames.join(&frame.name));
         for folder in [self.root.join("series"), frames.clone()].into_iter().chain(folders) {
-            check_group(&folder, &json!({}))?;
+            check_group(&folder)?;
         }
         for (array, rows) in self.arrays(metadata) {
             array.check_metadata(rows)?;

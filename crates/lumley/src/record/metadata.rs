@@ -1,6 +1,8 @@
 use super::array::{read_text, write_json};
 use super::description::check_parts;
+use super::error::printable;
 use super::{Description, FrameDescription, Quantity, RecordError, SeriesDescription, Support};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -10,11 +12,8 @@ use std::path::{Path, PathBuf};
 /// Version of the format on disk.
 const FORMAT: u32 = 1;
 
-/// Key of the checksum of what stands under `lumley`.
-const CHECKSUM: &str = "lumley_crc32c";
-
-/// Longest description of a record that is read, in bytes.
-const LIMIT: u64 = 1 << 24;
+/// Longest description of a record that is read, in bytes: that of thousands of quantities.
+const LIMIT: u64 = 1 << 20;
 
 /// Numbers in a chunk that is written: 1 MiB.
 const CHUNK: usize = 1 << 17;
@@ -123,29 +122,26 @@ impl Metadata {
         if !path.exists() {
             return Err(RecordError::NotARecord { path: root.to_owned() });
         }
-        let attributes = read_json(&path)?.get("attributes").cloned().unwrap_or_default();
-        let format = attributes.pointer("/lumley/format").and_then(Value::as_u64);
-        if let Some(found) = format.filter(|format| *format != u64::from(FORMAT)) {
+        let text = read_text(&path, LIMIT)?;
+        // Of another version nothing else may be as it is in this one.
+        let other = serde_json::from_str(&text).ok().map(|version: AnyVersion| version.attributes);
+        if let Some(found) = other.map(|any| any.lumley.format).filter(|v| *v != u64::from(FORMAT))
+        {
             return Err(RecordError::Version { path, found, supported: FORMAT });
         }
-        let metadata: Self = attributes
-            .get("lumley")
-            .map_or_else(|| Err(serde::de::Error::missing_field("lumley")), Self::deserialize)
-            .map_err(|source| RecordError::Json { path: path.clone(), source })?;
-        let stored = attributes.get(CHECKSUM).and_then(|text| text.as_str()).unwrap_or_default();
+        let Attributes { lumley: metadata, lumley_crc32c: stored } = parse_group(&path, &text)?;
         let computed = metadata.checksum();
         if stored != computed {
-            let stored = stored.chars().take(8).collect();
+            let stored = printable(&stored);
             return Err(RecordError::MetadataChecksum { path, stored, computed });
         }
-        check_group(root, &metadata.attributes())?;
         metadata.check_parts(&path)?;
         metadata.check_sizes(&path)?;
         Ok(metadata)
     }
 
     fn attributes(&self) -> Value {
-        json!({ "lumley": self, CHECKSUM: self.checksum() })
+        json!({ "lumley": self, "lumley_crc32c": self.checksum() })
     }
 
     /// CRC-32C of the entries in their order here, in hexadecimal.
@@ -188,30 +184,67 @@ impl Metadata {
     }
 }
 
-fn group(attributes: &Value) -> Value {
-    json!({ "zarr_format": 3, "node_type": "group", "attributes": attributes })
+/// The zarr.json of a group: other programs read this much of it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Group<A> {
+    zarr_format: u64,
+    node_type: String,
+    attributes: A,
+}
+
+/// Attributes of a record.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Attributes {
+    lumley: Metadata,
+    lumley_crc32c: String,
+}
+
+/// Attributes of a group of arrays.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct NoAttributes {}
+
+/// What records of all versions say.
+#[derive(Deserialize)]
+struct AnyVersion {
+    attributes: AnyAttributes,
+}
+
+#[derive(Deserialize)]
+struct AnyAttributes {
+    lumley: AnyMetadata,
+}
+
+#[derive(Deserialize)]
+struct AnyMetadata {
+    format: u64,
 }
 
 /// Writes the zarr.json of a group of arrays.
 pub(super) fn write_group(folder: &Path, attributes: &Value) -> Result<(), (PathBuf, io::Error)> {
-    write_json(&folder.join("zarr.json"), &group(attributes))
+    let group = json!({ "zarr_format": 3, "node_type": "group", "attributes": attributes });
+    write_json(&folder.join("zarr.json"), &group)
 }
 
-/// Checks that the zarr.json of a group says what it must.
-pub(super) fn check_group(folder: &Path, attributes: &Value) -> Result<(), RecordError> {
+/// Checks that the zarr.json of a group of arrays says what it must.
+pub(super) fn check_group(folder: &Path) -> Result<(), RecordError> {
     let path = folder.join("zarr.json");
-    let found = read_json(&path)?;
-    let expected = group(attributes);
-    if found == expected {
-        return Ok(());
-    }
-    let show = |value: &Value| value.to_string().chars().take(200).collect();
-    let (value, expected) = (show(&found), show(&expected));
-    Err(RecordError::Invalid { path, key: "the group".into(), value, expected })
+    parse_group(&path, &read_text(&path, LIMIT)?).map(|NoAttributes {}| ())
 }
 
-fn read_json(path: &Path) -> Result<Value, RecordError> {
-    let text = read_text(path, LIMIT)?;
-    serde_json::from_str(&text)
-        .map_err(|source| RecordError::Json { path: path.to_owned(), source })
+/// The attributes in the zarr.json of a group. It is read into the types above and no others: what stands
+/// there can take little more memory than the file.
+fn parse_group<A: DeserializeOwned>(path: &Path, text: &str) -> Result<A, RecordError> {
+    let group: Group<A> = serde_json::from_str(text).map_err(RecordError::json(path))?;
+    if (group.zarr_format, group.node_type.as_str()) == (3, "group") {
+        return Ok(group.attributes);
+    }
+    Err(RecordError::Invalid {
+        path: path.to_owned(),
+        key: "zarr_format, node_type".into(),
+        value: format!("{}, {}", group.zarr_format, printable(&group.node_type)),
+        expected: "3, group".into(),
+    })
 }

@@ -9,8 +9,9 @@ use faer::{Mat, Par};
 use lumley_fem::LineMesh;
 use lumley_fem::element::{P1, P2};
 use lumley_pod::{
-    ALGORITHMS, Algorithm, Decomposition as Found, InnerProduct, MemorySnapshots, Note, Options,
-    PodError, ReducedBasis, SnapshotSource, SparseSpd, Truncation, projection_residuals,
+    ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition as Found, InnerProduct, MemorySnapshots,
+    Note, Options, PodError, ReducedBasis, SnapshotSource, SparseSpd, Truncation,
+    projection_residuals,
 };
 use std::num::NonZero;
 use std::path::Path;
@@ -77,6 +78,7 @@ pub(super) fn summary_of(found: &Found, chosen: usize) -> Decomposition {
         modes: chosen,
         passes: found.passes,
         total_energy: found.total_energy,
+        error_bound: found.error_bound,
         eigenvalues: found.eigenvalues.clone(),
         singular_values: found.singular_values.clone(),
         energy_percent: found.energy_percent(),
@@ -103,7 +105,7 @@ pub(super) fn warnings(found: &Found, choice: &PodChoice) -> Vec<String> {
 
 /// The algorithm of this name, which was checked.
 pub(super) fn algorithm(name: &str) -> &'static Algorithm {
-    let known = ALGORITHMS.iter().find(|algorithm| algorithm.name == name);
+    let known = ALGORITHMS.iter().chain(APPROXIMATIONS).find(|algorithm| algorithm.name == name);
     known.expect("the choice names a known method")
 }
 

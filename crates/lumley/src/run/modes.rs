@@ -7,7 +7,6 @@ use crate::ranks::together;
 use crate::report::{DrawnModes, FieldGrid};
 use faer::{Mat, MatMut, MatRef};
 use lumley_pod::{Decomposition, ModeStore, Ranks};
-use std::fs;
 use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -18,7 +17,8 @@ use std::sync::{PoisonError, RwLock};
 ///
 /// On the way there are two files beside it. `modes.scratch` holds the columns that are yet to be made
 /// orthonormal; what a killed run wrote into it is there when that run goes on. The archive itself
-/// is `pod.npz.partial` until [`finish`](Self::finish). So a run takes twice the disk of its modes.
+/// is `pod.npz.partial` until [`finish`](Self::finish). The scratch file stays: a journal counts on it, and must
+/// go first. So a run takes twice the disk of its modes.
 ///
 /// ```
 /// use lumley::run::{BasisFile, FileModes};
@@ -44,7 +44,7 @@ impl FileModes {
         Self { folder: folder.to_owned(), scratch: Slot::default(), archive: Slot::default() }
     }
 
-    /// Completes `pod.npz` with all that `found` says of the modes; the files on the way are gone then.
+    /// Completes `pod.npz` with all that `found` says of the modes.
     /// Every rank calls it once the modes are published; rank 0 completes the file.
     ///
     /// # Errors
@@ -70,22 +70,18 @@ impl FileModes {
     }
 }
 
+/// Name of the file of the columns that are yet to be made orthonormal.
+pub(super) const SCRATCH: &str = "modes.scratch";
+
 fn scratch(folder: &Path) -> PathBuf {
-    folder.join("modes.scratch")
+    folder.join(SCRATCH)
 }
 
 /// Adds what is small to the modes and gives the archive its name.
 fn complete(archive: NpzRows, folder: &Path, found: &Decomposition) -> Result<(), FormatError> {
     let mut npz = archive.complete(&folder.join("pod.npz"))?;
     push_small(&mut npz, found)?;
-    npz.finish()?;
-    let path = scratch(folder);
-    match fs::remove_file(&path) {
-        Err(source) if source.kind() != io::ErrorKind::NotFound => {
-            Err(FormatError::Io { action: "remove", path, source })
-        }
-        _ => Ok(()),
-    }
+    npz.finish()
 }
 
 impl ModeStore for FileModes {
@@ -102,7 +98,9 @@ impl ModeStore for FileModes {
     }
 
     fn sync(&self) -> io::Result<()> {
-        with(&self.scratch, Scratch::sync)
+        // A pass that writes no columns has nothing to bring to the disk.
+        let slot = self.scratch.read().unwrap_or_else(PoisonError::into_inner);
+        slot.as_ref().map_or(Ok(()), Scratch::sync).map_err(io::Error::other)
     }
 
     fn begin(&self, rows: usize, modes: usize, mean: bool) -> io::Result<()> {

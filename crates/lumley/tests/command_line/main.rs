@@ -5,6 +5,7 @@ mod interrupted;
 mod pod;
 mod rom;
 mod run;
+mod update;
 
 use std::fs;
 use std::path::{Path, PathBuf};

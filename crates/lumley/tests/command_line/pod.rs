@@ -8,7 +8,7 @@ use lumley::summary::Summary;
 use std::f64::consts::PI;
 
 /// 40 snapshots in rows of 60 unknowns, of rank 3: standing waves of falling size.
-fn waves() -> Mat<f64> {
+pub(super) fn waves() -> Mat<f64> {
     Mat::from_fn(40, 60, |k, i| {
         let (t, x) = (k as f64 / 40.0, i as f64 / 59.0);
         let wave = |n: f64| (n * PI * x).sin() * (2.0 * n * PI * t).cos() / n.powi(3);
@@ -16,13 +16,13 @@ fn waves() -> Mat<f64> {
     })
 }
 
-fn desk_with_waves() -> Desk {
+pub(super) fn desk_with_waves() -> Desk {
     let desk = Desk::new();
     write_matrix(desk.path("x.npy"), waves().as_ref()).expect("a file");
     desk
 }
 
-fn summary(desk: &Desk, arguments: &[&str]) -> Summary {
+pub(super) fn summary(desk: &Desk, arguments: &[&str]) -> Summary {
     let answer = desk.lumley(&[&["pod", "x.npy", "--json"], arguments].concat()).good();
     serde_json::from_str(&answer.stdout).expect("a summary")
 }
@@ -97,6 +97,22 @@ fn times_weigh_the_snapshots() {
     // Half the first step, half of both steps round snapshot 5, over the whole time.
     assert!((found[0] - 0.5 / 1521.0).abs() < 1e-15, "{}", found[0]);
     assert!((found[5] - 10.0 / 1521.0).abs() < 1e-15, "{}", found[5]);
+}
+
+#[test]
+fn approximations_run_by_name() {
+    let desk = desk_with_waves();
+    let exact = summary(&desk, &["--modes", "3", "--method", "svd", "-o", "exact"]);
+    for method in ["randomized", "incremental"] {
+        let found = summary(&desk, &["--modes", "3", "--method", method, "-o", method]);
+        assert_eq!(found.pod.method, method);
+        let bound = found.pod.error_bound.expect("an approximation");
+        assert!((0.0..1e-20).contains(&bound), "{method}: {bound:e}");
+        for (a, b) in found.pod.eigenvalues.iter().zip(&exact.pod.eigenvalues) {
+            assert!((a - b).abs() < 1e-13, "{method}: {a} and {b}");
+        }
+        assert_eq!(found.projection.res_percent.len(), 3);
+    }
 }
 
 #[test]

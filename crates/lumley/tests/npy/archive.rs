@@ -113,6 +113,125 @@ fn compressed_arrays_are_refused() -> Outcome {
     Ok(())
 }
 
+/// The directory's entries of [`archive`], from their signatures on.
+fn entries(bytes: &[u8]) -> [usize; 2] {
+    let marks = bytes.windows(4).enumerate().filter(|(_, mark)| mark == b"PK\x01\x02");
+    let found: Vec<usize> = marks.map(|(at, _)| at).collect();
+    found.try_into().expect("two arrays")
+}
+
+/// Members that begin anywhere: within another, in the directory, at the end, beyond everything.
+#[test]
+fn members_may_be_claimed_to_lie_anywhere() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = archive(folder.path())?;
+    let whole = std::fs::read(&path)?;
+    let [first, second] = entries(&whole);
+    let end = u32::try_from(whole.len())?;
+    let places = (1..end).chain([end, end + 1, u32::MAX - 1, u32::MAX]);
+    for place in places {
+        let mut bytes = whole.clone();
+        bytes[first + 42..first + 46].copy_from_slice(&place.to_le_bytes());
+        replace(&path, &bytes)?;
+        let error = read(&path).expect_err("no such member there");
+        let FormatError::Bytes { offset, .. } = error else { panic!("{place}: {error}") };
+        let of_directory = place == u32::MAX && offset >= first as u64; // ZIP64 without its field
+        assert!(of_directory || offset >= u64::from(place), "{place}: {error}");
+    }
+    // Both entries tell of the same bytes, under one name: the same array twice.
+    let mut bytes = whole[..second].to_vec();
+    bytes.extend_from_slice(&whole[first..second]);
+    let size = u32::try_from(2 * (second - first))?;
+    bytes.extend_from_slice(&whole[whole.len() - 22..]);
+    let at = bytes.len() - 22;
+    bytes[at + 12..at + 16].copy_from_slice(&size.to_le_bytes());
+    replace(&path, &bytes)?;
+    let npz = NpzReader::open(&path)?;
+    assert_eq!(npz.names().collect::<Vec<_>>(), ["modes", "modes"]);
+    assert_eq!(npz.read("modes")?.nrows(), 3);
+    Ok(())
+}
+
+/// Sizes and places of 64 bits that reach beyond the file.
+const CLAIMS: [u64; 5] = [u64::MAX, u64::MAX - 30, 1 << 63, 1 << 40, 1 << 20];
+
+/// An archive of the entry alone whose fields at `places` stand as ZIP64 and claim what they claim.
+fn claiming(whole: &[u8], places: &[usize], claim: u64) -> Vec<u8> {
+    let [first, second] = entries(whole);
+    let mut entry = whole[first..second].to_vec();
+    for &at in places {
+        entry[at..at + 4].fill(0xFF);
+    }
+    let fields = claim.to_le_bytes().repeat(places.len());
+    let length = u16::try_from(fields.len()).expect("three fields at most");
+    entry[30..32].copy_from_slice(&(length + 4).to_le_bytes());
+    let extra = [&[1, 0], &length.to_le_bytes()[..], &fields].concat();
+    let mut end = whole[whole.len() - 22..].to_vec();
+    let size = u32::try_from(entry.len() + extra.len()).expect("a short entry");
+    end[8..12].copy_from_slice(&[1, 0, 1, 0]);
+    end[12..16].copy_from_slice(&size.to_le_bytes());
+    [&whole[..first], &entry, &extra, &end].concat()
+}
+
+#[test]
+fn zip64_sizes_and_places_do_not_allocate() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = archive(folder.path())?;
+    let whole = std::fs::read(&path)?;
+    let (packed, size, local) = (20, 24, 42);
+    for claim in CLAIMS {
+        for places in [&[packed, size][..], &[local], &[packed, size, local]] {
+            replace(&path, &claiming(&whole, places, claim))?;
+            let error = NpzReader::open(&path)?.read("modes").expect_err("a claim");
+            assert!(matches!(error, FormatError::Bytes { .. }), "{claim}: {error}");
+        }
+    }
+    let true_place = claiming(&whole, &[local], 0);
+    replace(&path, &true_place)?;
+    assert_eq!(NpzReader::open(&path)?.read("modes")?.nrows(), 3, "the claim alone is wrong");
+    Ok(())
+}
+
+#[test]
+fn zip64_directories_do_not_allocate() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = archive(folder.path())?;
+    let whole = std::fs::read(&path)?;
+    let before = &whole[..whole.len() - 22];
+    let place = before.len() as u64;
+    for claim in CLAIMS {
+        for [count, size, start] in [[claim, 0, 0], [2, claim, 0], [2, 0, claim], [claim; 3]] {
+            let directory = [count, size, start].map(u64::to_le_bytes).concat();
+            let end64 = [b"PK\x06\x06".as_slice(), &[0; 28], &directory].concat();
+            for place in [place, claim] {
+                let locator =
+                    [b"PK\x06\x07\0\0\0\0", &place.to_le_bytes()[..], &[1, 0, 0, 0]].concat();
+                let end = [b"PK\x05\x06\0\0\0\0".as_slice(), &[0xFF; 12], &[0; 2]].concat();
+                replace(&path, &[before, &end64, &locator, &end].concat())?;
+                let error = NpzReader::open(&path).expect_err("a claim");
+                assert!(matches!(error, FormatError::Bytes { .. }), "{claim}: {error}");
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Names are listed as far as a message has room, and cannot play tricks on a terminal.
+#[test]
+fn unknown_names_make_a_short_message() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("pod.npz");
+    let mut npz = NpzWriter::create(&path)?;
+    for k in 0..100 {
+        npz.vector(&format!("{k}\u{1b}[2J{}", "x".repeat(1000)), &[1.0])?;
+    }
+    npz.finish()?;
+    let message = read(&path).expect_err("no modes").to_string();
+    assert!(message.contains("pod.npz: no array modes; it holds \"0\\x1b"), "{message}");
+    assert!(message.len() < 1000 && !message.contains('\u{1b}'), "{message}");
+    Ok(())
+}
+
 /// A directory that claims 8 MiB, in a file of some hundred bytes.
 #[test]
 fn claimed_sizes_do_not_allocate() -> Outcome {

@@ -2,5 +2,8 @@
 
 mod archive;
 mod damage;
+#[cfg(target_os = "linux")]
+mod memory;
 mod read;
 mod sample;
+mod weights;

@@ -1,5 +1,5 @@
 use crate::sample::{Lcg, Outcome, file, header, npy};
-use faer::{Mat, mat};
+use faer::{Mat, MatMut, mat};
 use lumley::format::FormatError;
 use lumley::format::npy::{
     NpyMatrix, NpySnapshots, SnapshotLayout, read_vector, write_matrix, write_vector,
@@ -120,25 +120,66 @@ fn snapshots_of_several_axes() -> Outcome {
     Ok(())
 }
 
-/// The first number that is not finite is named by its snapshot and row.
+/// Whatever the strides of the place that a block goes to, and also where a line of the file is longer
+/// than what is read at a time.
 #[test]
-fn non_finite_numbers_are_located() -> Outcome {
+fn blocks_of_long_lines_and_other_strides() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let mut x = Mat::from_fn(400, 900, |i, j| (i + j) as f64);
-    x[(399, 700)] = f64::NAN;
-    let path = folder.path().join("x.npy");
-    write_matrix(&path, x.as_ref())?;
-    for (layout, at) in [(SnapshotLayout::Rows, (399, 700)), (SnapshotLayout::Columns, (700, 399))]
-    {
-        let error = NpySnapshots::open(&path, layout)?.check_finite().expect_err("a NaN");
-        let FormatError::NonFinite { snapshot, row, .. } = error else { panic!("{error}") };
-        assert_eq!((snapshot, row), at);
+    let x = Mat::from_fn(3, 300_000, |i, j| (1000 * j + i) as f64);
+    let fortran = folder.path().join("x.npy");
+    write_matrix(&fortran, x.transpose())?; // in the file a line is a row of x
+    let file = NpyMatrix::open(&fortran)?;
+    assert_eq!(file.read()?, x.transpose());
+    let mut spread = Mat::zeros(2 * 290_000, 3);
+    let whole = MatMut::from_column_major_slice_with_stride_mut(
+        spread.col_as_slice_mut(0),
+        290_000,
+        1,
+        290_000,
+    );
+    file.read_block(5_000..295_000, 1..2, whole)?;
+    assert!((0..290_000).all(|j| spread[(j, 0)] == x[(1, 5_000 + j)]));
+    let mut wide = Mat::zeros(6, 2_000);
+    let mut every_second = wide.as_mut().reverse_rows_mut();
+    file.read_block(7..2_007, 0..3, every_second.as_mut().subrows_mut(3, 3).transpose_mut())?;
+    assert!((0..2_000).all(|j| wide[(2, j)] == x[(0, 7 + j)] && wide[(0, j)] == x[(2, 7 + j)]));
+    assert!((0..2_000).all(|j| wide[(3, j)] == 0.0), "nothing beside the block");
+    Ok(())
+}
+
+/// A tile of rows for all snapshots, as POD reads it, from files of both orders and layouts.
+#[test]
+fn tiles_of_snapshots() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (n, m) = (9_001, 37);
+    let number = |i: usize, j: usize| ((i * m + j) % 30_011) as f64 - 15_000.0;
+    let x = Mat::from_fn(n, m, number);
+    let file_of = |outer: usize, inner: usize, at: &dyn Fn(usize, usize) -> f64, big: bool| {
+        let numbers = (0..outer * inner).map(|k| at(k / inner, k % inner));
+        // These integers are exact in 32 bits.
+        #[expect(clippy::cast_possible_truncation)]
+        let numbers = numbers.map(|x| x as f32);
+        little(numbers, if big { f32::to_be_bytes } else { f32::to_le_bytes })
+    };
+    let rows = |big| file_of(m, n, &|j, i| number(i, j), big);
+    let columns = |big| file_of(n, m, &number, big);
+    for (layout, descr, fortran_order, data) in [
+        (SnapshotLayout::Rows, "<f4", false, rows(false)),
+        (SnapshotLayout::Rows, ">f4", true, columns(true)),
+        (SnapshotLayout::Columns, ">f4", false, columns(true)),
+        (SnapshotLayout::Columns, "<f4", true, rows(false)),
+    ] {
+        let shape = if layout == SnapshotLayout::Rows { (m, n) } else { (n, m) };
+        let text = header(descr, fortran_order, &format!("{shape:?}"));
+        let snapshots = NpySnapshots::open(file(folder.path(), &npy(&text, &data))?, layout)?;
+        for first in (0..n).step_by(4_000) {
+            let last = n.min(first + 4_000);
+            let mut tile = Mat::zeros(4_000, m);
+            let mut tile = tile.subrows_mut(0, last - first);
+            snapshots.block(first..last, 0..m, tile.as_mut())?;
+            assert_eq!(tile, x.subrows(first, last - first), "{layout:?}, {descr}");
+        }
     }
-    let data = little([0.0, 1.0, f64::INFINITY, f64::NAN].into_iter(), f64::to_le_bytes);
-    let c = file(folder.path(), &npy(&header("<f8", false, "(2, 2)"), &data))?;
-    assert_eq!(NpyMatrix::open(&c)?.first_non_finite()?, Some((1, 0, f64::INFINITY)));
-    write_vector(&path, &[1.0])?;
-    assert_eq!(NpyMatrix::open(&path)?.first_non_finite()?, None);
     Ok(())
 }
 

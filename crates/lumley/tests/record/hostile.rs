@@ -1,7 +1,10 @@
 use crate::sample::{self, Outcome, replace};
 use lumley::record::{Record, RecordError, RecordWriter};
+use lumley_pod::{Execution, Identity, Options, PodError, finite_snapshots, svd};
 use serde_json::{Value, json};
 use std::path::Path;
+#[cfg(target_os = "linux")]
+use std::process::Command;
 
 const HUGE: u64 = 1 << 60;
 
@@ -41,7 +44,7 @@ fn member(key: &str, value: &Value) -> String {
 #[test]
 fn claimed_sizes_do_not_allocate() -> Outcome {
     type Change = fn(&mut Value);
-    let changes: [(&str, &str, Change); 13] = [
+    let changes: [(&str, &str, Change); 16] = [
         ("snapshots", "shape", |d| d["snapshots"] = json!(HUGE)),
         ("all snapshots", "shape", |d| d["snapshots"] = json!(u64::MAX)),
         ("chunk", "chunk_snapshots", |d| d["chunk_snapshots"] = json!(HUGE)),
@@ -54,6 +57,9 @@ fn claimed_sizes_do_not_allocate() -> Outcome {
         ("no grid", "Grid", |d| d["frames"][0]["support"]["grid"] = json!([0, 0])),
         ("nodes", "nodes/c/0", |d| d["frames"][1]["support"]["nodes"] = json!(HUGE)),
         ("name", "zarr.json", |d| d["frames"][0]["name"] = json!("../../etc")),
+        ("negative", "line 1", |d| d["snapshots"] = json!(-1)),
+        ("negative chunk", "line 1", |d| d["frames"][0]["chunk_rows"] = json!(-1)),
+        ("long name", "name in frames", |d| d["frames"][0]["name"] = json!("x".repeat(10_000))),
         ("no frames", "frames", |d| d["frames"] = json!([])),
     ];
     let folder = tempfile::tempdir()?;
@@ -63,7 +69,7 @@ fn claimed_sizes_do_not_allocate() -> Outcome {
         forge(&path, change)?;
         let message = Record::open(&path).expect_err(name).to_string();
         assert!(message.contains(&path.display().to_string()), "{name}: {message}");
-        assert!(message.contains(place), "{name}: {message}");
+        assert!(message.contains(place) && message.len() < 1000, "{name}: {message}");
         RecordWriter::open(&path).expect_err(name);
     }
     let sound = folder.path().join("sound");
@@ -147,7 +153,7 @@ fn foreign_descriptions_are_refused() -> Outcome {
         assert!(matches!(error, RecordError::Invalid { .. }), "{place}: {error}");
         assert!(error.to_string().contains("values/zarr.json"), "{error}");
     }
-    let deep = "[".repeat(60_000);
+    let deep = "[".repeat(100_000);
     for text in ["", "null", "[]", "{}", "{\"shape\": 7}", &deep] {
         for file in [&file, &path.join("zarr.json")] {
             let whole = std::fs::read(file)?;
@@ -157,6 +163,112 @@ fn foreign_descriptions_are_refused() -> Outcome {
             replace(file, &whole)?;
         }
     }
+    Ok(())
+}
+
+/// A file of brackets would take a hundred times its length as a tree: it is refused before it is one, in a
+/// process of little memory.
+#[cfg(target_os = "linux")]
+#[test]
+fn descriptions_take_no_more_memory_than_their_files() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("record");
+    sample::record(&path, [2, 2], 3)?;
+    let info = || {
+        let lumley = env!("CARGO_BIN_EXE_lumley");
+        let script = "ulimit -v 60000 && exec \"$1\" info \"$2\"";
+        Command::new("sh").args(["-c", script, "sh", lumley]).arg(&path).output()
+    };
+    assert!(info()?.status.success(), "what is sound is read in so little memory");
+    let [record, array] = ["zarr.json", "frames/fixed/values/zarr.json"].map(|f| path.join(f));
+    let objects = |length: usize| format!("[{}0]", "{\"\":0},".repeat(length / 7));
+    let attributes = format!("{{\"attributes\":{{\"lumley\":{}}}}}", objects(1_040_000));
+    let name = "\\u001b[2J".repeat(100_000);
+    let key = format!("{{\"attributes\":{{\"lumley\":{{\"{name}\":1}}}}}}");
+    let huge = objects(60_000_000);
+    for (file, text) in [
+        (&record, &objects(1_040_000)),
+        (&record, &attributes),
+        (&record, &key),
+        (&record, &huge),
+        (&array, &huge),
+        (&array, &objects(1_500)),
+    ] {
+        let whole = std::fs::read(file)?;
+        replace(file, text.as_bytes())?;
+        let output = info()?;
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains("zarr.json") && said.len() < 1000, "{said}");
+        assert!(!said.contains('\u{1b}'), "no tricks on a terminal: {said}");
+        replace(file, &whole)?;
+    }
+    Ok(())
+}
+
+/// Directories in the place of files, and files in the place of directories.
+#[test]
+fn other_things_than_files_are_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("record");
+    sample::record(&path, [2, 2], 3)?;
+    for file in sample::files(&path) {
+        let whole = std::fs::read(&file)?;
+        std::fs::remove_file(&file)?;
+        std::fs::create_dir(&file)?;
+        let message = Record::open(&path).expect_err("a directory").to_string();
+        assert!(message.contains(&file.display().to_string()), "{message}");
+        std::fs::remove_dir(&file)?;
+        std::fs::write(&file, whole)?;
+    }
+    let chunks = path.join("frames/fixed/values/c");
+    std::fs::remove_dir_all(&chunks)?;
+    std::fs::write(&chunks, b"")?;
+    let message = Record::open(&path).expect_err("a file").to_string();
+    assert!(message.contains("frames/fixed/values/c/0"), "{message}");
+    Ok(())
+}
+
+/// Blocks that are longer than they should be by a little or by much, and the one behind the last.
+#[test]
+fn blocks_of_another_length_are_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("record");
+    sample::record(&path, [2, 2], 3)?;
+    let file = path.join("frames/fixed/values/c/0/0");
+    let whole = std::fs::read(&file)?;
+    for excess in [1, 8, whole.len(), 1 << 40] {
+        std::fs::OpenOptions::new()
+            .write(true)
+            .open(&file)?
+            .set_len((whole.len() + excess) as u64)?;
+        let message = Record::open(&path).expect_err("a long block").to_string();
+        assert!(message.contains("values/c/0/0: damaged block"), "{message}");
+    }
+    replace(&file, &whole)?;
+    std::fs::write(path.join("frames/fixed/values/c/0/1"), b"not of this record")?;
+    assert_eq!(Record::open(&path)?.len(), 3, "what is not committed counts for nothing");
+    Ok(())
+}
+
+/// Numbers that are not finite, in a chunk with a right checksum: a decomposition names snapshot and row.
+#[test]
+fn numbers_that_are_not_finite_are_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("record");
+    let rows = sample::record(&path, [2, 2], 3)?.frames[0].rows();
+    let file = path.join("frames/fixed/values/c/0/0");
+    let mut bytes = std::fs::read(&file)?;
+    let (end, place) = (bytes.len() - 4, 8 * (2 * rows + 5));
+    bytes[place..place + 8].copy_from_slice(&f64::NAN.to_le_bytes());
+    let checksum = crc32c::crc32c(&bytes[..end]);
+    bytes[end..].copy_from_slice(&checksum.to_le_bytes());
+    replace(&file, &bytes)?;
+    let snapshots = Record::open(&path)?.frame("fixed")?;
+    let options = Options::default();
+    let error = svd(&snapshots, &Identity::new(rows), &options).expect_err("NaN");
+    assert!(matches!(error, PodError::NonFinite { snapshot: 2, row: 5, .. }), "{error}");
+    assert_eq!(finite_snapshots(&snapshots, &options, Execution::default())?, [0, 1]);
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 use crate::sample::{self, Lcg, Outcome, append, description, files, matrix, time};
 use faer::Mat;
-use lumley::record::{Record, RecordError, RecordWriter, Snapshot, Support};
+use lumley::record::{Quantity, Record, RecordError, RecordWriter, Snapshot, Support};
 use lumley_pod::SnapshotSource;
 use std::path::Path;
 
@@ -168,6 +168,26 @@ fn visible_when_committed() -> Outcome {
     check(&path, [5, 4], 10)?;
     append(&mut writer, &description, 10..257)?;
     check(&path, [5, 4], 256)?;
+    Ok(())
+}
+
+/// Thousands of loads, whose names make long descriptions.
+#[test]
+fn long_series() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("record");
+    let mut description = description([2, 2]);
+    description.series.truncate(1);
+    description.series[0].entries =
+        (0..4000).map(|k| Quantity::new(format!("load {k}"), "N")).collect();
+    let mut writer = RecordWriter::create(&path, &description)?;
+    append(&mut writer, &description, 0..2)?;
+    writer.finish()?;
+    let record = Record::open(&path)?;
+    assert_eq!(
+        (record.description(), record.series("position")?.at(1).len()),
+        (&description, 4000)
+    );
     Ok(())
 }
 

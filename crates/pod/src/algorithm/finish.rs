@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 
 /// What an algorithm found besides the spectrum; the coefficients are those of the snapshots as
 /// the ensemble shows them, weighted in time.
-pub(super) struct Parts {
+pub(crate) struct Parts {
     pub coefficients: Mat<f64>,
     pub note: Option<Note>,
     pub residual: Residual,
@@ -14,7 +14,7 @@ pub(super) struct Parts {
 }
 
 /// Takes the time weights off the coefficients and collects the results.
-pub(super) fn finish(
+pub(crate) fn finish(
     algorithm: &'static str,
     ensemble: &Ensemble<'_>,
     spectrum: Spectrum,
@@ -33,7 +33,8 @@ pub(super) fn finish(
         eigenvalues,
         coefficients,
         residuals,
-        total_energy: spectrum.values.iter().sum(),
+        total_energy: spectrum.total(),
+        error_bound: spectrum.left_out,
         noise_floor: spectrum.floor,
         rank: spectrum.rank(),
         spectrum: spectrum.values,
@@ -44,7 +45,7 @@ pub(super) fn finish(
     }
 }
 
-pub(super) fn singular_values(lambda: &[f64], snapshots: usize) -> Vec<f64> {
+pub(crate) fn singular_values(lambda: &[f64], snapshots: usize) -> Vec<f64> {
     lambda.iter().map(|l| (snapshots as f64 * l).sqrt()).collect()
 }
 

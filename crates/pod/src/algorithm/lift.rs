@@ -11,7 +11,7 @@ use faer::Mat;
 
 /// `Phi_n = X v_n / sigma_n`, made orthonormal again where round-off spoilt it: a pass over the
 /// snapshots that stores the columns as they come, and one over these that publishes them.
-pub(super) fn lift(
+pub(crate) fn lift(
     algorithm: &'static str,
     run: &Run<'_>,
     temporal: Temporal,
@@ -25,10 +25,14 @@ pub(super) fn lift(
     let sigma = singular_values(&spectrum.values[..kept], m);
     let sigma_vt = Mat::from_fn(kept, m, |k, j| sigma[k] * vectors[(j, k)]);
     let to_modes = Mat::from_fn(m, kept, |j, k| vectors[(j, k)] / sigma[k]);
-    let raw =
-        raw_modes(run, &Lift { to_modes: to_modes.as_ref(), coefficients: sigma_vt.as_ref() })?;
-    let change = orthonormal(run, raw.columns)?;
-    publish(run, change.to_modes.as_ref())?;
+    let lift = Lift {
+        to_modes: to_modes.as_ref(),
+        coefficients: sigma_vt.as_ref(),
+        measured: run.ensemble.options.residuals,
+    };
+    let raw = raw_modes(run, &lift)?;
+    let change = orthonormal(run, &[], raw.columns)?;
+    publish(run, &[change.to_modes.as_ref()])?;
     // X v_n = Phi R sigma_n, so that the coefficients of the new modes are R Sigma Vᵀ.
     let coefficients = product(change.of_coefficients.as_ref(), sigma_vt.as_ref());
     let parts = Parts { coefficients, note, residual: raw.residual, passes: run.passes() };

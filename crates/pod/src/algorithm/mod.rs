@@ -2,13 +2,13 @@
 
 mod auto;
 mod direct;
-mod finish;
-mod lift;
-mod orthonormal;
-mod raw;
-mod snapshots;
-mod svd;
-mod whole;
+pub(crate) mod finish;
+pub(crate) mod lift;
+pub(crate) mod orthonormal;
+pub(crate) mod raw;
+pub(crate) mod snapshots;
+pub(crate) mod svd;
+pub(crate) mod whole;
 
 pub use auto::auto;
 pub use direct::direct;
@@ -91,9 +91,8 @@ pub(crate) fn in_memory(
     Ok(ReducedBasis { modes, mean, decomposition })
 }
 
-/// Runs an algorithm that reads rows: where the inner product couples all of them, on weighted
-/// snapshots in memory.
-fn with_rows(
+/// Runs an algorithm that reads rows and takes sums of M x M numbers.
+pub(crate) fn with_rows(
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
     options: &Options,
@@ -101,9 +100,25 @@ fn with_rows(
     modes: &dyn ModeStore,
     algorithm: &dyn Fn(&Run<'_>) -> Result<Decomposition, PodError>,
 ) -> Result<Decomposition, PodError> {
+    with_sums(x, w, options, execution, modes, x.times().len(), algorithm)
+}
+
+/// Runs an algorithm that reads rows: where the inner product couples all of them, on weighted
+/// snapshots in memory.
+///
+/// * `width`: columns of the sums that it takes, of M rows
+pub(crate) fn with_sums(
+    x: &dyn SnapshotSource,
+    w: &dyn InnerProduct,
+    options: &Options,
+    execution: Execution<'_>,
+    modes: &dyn ModeStore,
+    width: usize,
+    algorithm: &dyn Fn(&Run<'_>) -> Result<Decomposition, PodError>,
+) -> Result<Decomposition, PodError> {
     check_dimensions(x, w)?;
     if w.reach() == Reach::All {
-        return whole::with_columns(x, w, options, execution, modes, algorithm);
+        return whole::with_columns(x, w, options, execution, modes, width, algorithm);
     }
-    algorithm(&Run::new(&Ensemble::new(x, w, options)?, execution, modes))
+    algorithm(&Run::new(&Ensemble::for_sums(x, w, options, width)?, execution, modes))
 }

@@ -11,7 +11,7 @@ use faer::{Mat, MatRef};
 use std::ops::Range;
 
 /// What makes orthonormal modes of columns, `Phi = columns T`.
-pub(super) struct Change {
+pub(crate) struct Change {
     /// T.
     pub to_modes: Mat<f64>,
     /// Its inverse.
@@ -21,7 +21,13 @@ pub(super) struct Change {
 /// `columns = Phi R`, with R from the Gram matrix of the columns (Cholesky-QR): the identity up to the
 /// relative error of the smallest modes, and being triangular it leaves the larger modes alone.
 /// An entry of largest magnitude of each mode is positive.
-pub(super) fn orthonormal(run: &Run<'_>, mut columns: Columns) -> Result<Change, PodError> {
+///
+/// * `steps`: what makes the columns of those that are stored, see [`multiplied`]
+pub(crate) fn orthonormal(
+    run: &Run<'_>,
+    steps: &[MatRef<'_, f64>],
+    mut columns: Columns,
+) -> Result<Change, PodError> {
     const ROUND_OFF: f64 = 1e-14;
     const PASSES: usize = 3;
     let size = columns.extremes.len();
@@ -41,7 +47,7 @@ pub(super) fn orthonormal(run: &Run<'_>, mut columns: Columns) -> Result<Change,
         if defect < 0.1 {
             break;
         }
-        columns = changed(run, to_modes.as_ref())?;
+        columns = changed(run, &[steps, &[to_modes.as_ref()]].concat())?;
     }
     for (k, extreme) in columns.extremes.iter().enumerate() {
         let sign = extreme.signum();
@@ -51,9 +57,21 @@ pub(super) fn orthonormal(run: &Run<'_>, mut columns: Columns) -> Result<Change,
     Ok(Change { to_modes, of_coefficients: r })
 }
 
-/// What is known of the stored columns times `change`.
-fn changed(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<Columns, PodError> {
-    let (ensemble, modes, size) = (run.ensemble, run.modes, change.nrows());
+/// The product of some columns with one matrix after the other. Multiplied out first, the matrices would
+/// bring round-off back that a later one takes away from what an earlier one left.
+fn multiplied(columns: Mat<f64>, steps: &[MatRef<'_, f64>]) -> Mat<f64> {
+    steps.iter().fold(columns, |columns, step| product(columns.as_ref(), *step))
+}
+
+/// Number of columns before and after some steps.
+fn widths(steps: &[MatRef<'_, f64>]) -> [usize; 2] {
+    let [first, last] = [steps.first(), steps.last()].map(|step| step.expect("a step"));
+    [first.nrows(), last.ncols()]
+}
+
+/// What is known of the stored columns after these steps.
+pub(crate) fn changed(run: &Run<'_>, steps: &[MatRef<'_, f64>]) -> Result<Columns, PodError> {
+    let (ensemble, modes, [stored, size]) = (run.ensemble, run.modes, widths(steps));
     let Reach::Rows(reach) = ensemble.product.reach() else {
         unreachable!("products of whole columns are taken before")
     };
@@ -62,22 +80,22 @@ fn changed(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<Columns, PodError> 
         let mut sum = Partial::zeros(size * size, size);
         for rows in Partition::pieces(rows, piece) {
             let support = support(ensemble.product, &rows);
-            let mut stored = Mat::zeros(support.len(), size);
-            modes.read(support, stored.as_mut())?;
-            let mut columns = product(stored.as_ref(), change);
+            let mut columns = Mat::zeros(support.len(), stored);
+            modes.read(support, columns.as_mut())?;
+            let mut columns = multiplied(columns, steps);
             let own = columns.subrows(0, rows.len()).to_owned();
             ensemble.product.factor(rows.clone(), columns.as_mut())?;
             add_columns(&mut sum, own.as_ref(), columns.subrows(0, rows.len()));
         }
         Ok(sum)
     };
-    Ok(Columns::of(&run.over_modes("orthonormalisation", size, &part)?, size))
+    Ok(Columns::of(&run.over_modes("orthonormalisation", stored, &part)?, size))
 }
 
-/// Publishes the stored columns times `change`, and the mean behind them.
-pub(super) fn publish(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<(), PodError> {
+/// Publishes the stored columns after these steps, and the mean behind them.
+pub(crate) fn publish(run: &Run<'_>, steps: &[MatRef<'_, f64>]) -> Result<(), PodError> {
     let (n, _) = run.ensemble.shape();
-    let (stored, kept) = change.shape();
+    let [stored, kept] = widths(steps);
     let (block, modes) = (run.ensemble.partition.block(), run.modes);
     let centred = run.ensemble.options.center;
     run.all_or_none(modes.begin(n, kept, centred))?;
@@ -85,9 +103,9 @@ pub(super) fn publish(run: &Run<'_>, change: MatRef<'_, f64>) -> Result<(), PodE
         for rows in Partition::pieces(rows, block) {
             let mut columns = Mat::zeros(rows.len(), stored + usize::from(centred));
             modes.read(rows.clone(), columns.as_mut())?;
-            let mean = centred.then(|| columns.col_as_slice(stored));
-            let found = product(columns.subcols(0, stored), change);
-            modes.publish(rows, found.as_ref(), mean)?;
+            let mean = centred.then(|| columns.col_as_slice(stored).to_vec());
+            columns.truncate(rows.len(), stored);
+            modes.publish(rows, multiplied(columns, steps).as_ref(), mean.as_deref())?;
         }
         Ok(Partial::default())
     };

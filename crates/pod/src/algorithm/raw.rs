@@ -5,6 +5,7 @@ use crate::correlation::mirror;
 use crate::ensemble::{Ensemble, Tile};
 use crate::kernel::add_gram;
 use crate::partial::{Partial, extreme_of};
+use crate::partition::Partition;
 use crate::run::Run;
 use crate::{ModeStore, PodError};
 use faer::linalg::matmul::matmul;
@@ -12,15 +13,17 @@ use faer::{Accum, Mat, MatMut, MatRef, Par};
 use std::ops::Range;
 
 /// How the columns come out of the snapshots.
-pub(super) struct Lift<'a> {
+pub(crate) struct Lift<'a> {
     /// M x k: the columns are X times this.
     pub to_modes: MatRef<'a, f64>,
     /// k x M: the columns times this are what they hold of the snapshots.
     pub coefficients: MatRef<'a, f64>,
+    /// Whether to measure what that leaves of each snapshot.
+    pub measured: bool,
 }
 
 /// Stored columns, as far as they are known without reading them.
-pub(super) struct Columns {
+pub(crate) struct Columns {
     /// Their Gram matrix in the inner product.
     pub gram: Mat<f64>,
     /// Of each an entry of largest magnitude.
@@ -35,17 +38,17 @@ pub(crate) struct Residual {
     pub whole: Vec<f64>,
 }
 
-pub(super) struct RawModes {
+pub(crate) struct RawModes {
     pub columns: Columns,
     pub residual: Residual,
 }
 
 /// One pass over the snapshots: stores the columns, and the mean behind them where it is subtracted.
-pub(super) fn raw_modes(run: &Run<'_>, lift: &Lift<'_>) -> Result<RawModes, PodError> {
+pub(crate) fn raw_modes(run: &Run<'_>, lift: &Lift<'_>) -> Result<RawModes, PodError> {
     let (n, m) = run.ensemble.shape();
     let (kept, options) = (lift.to_modes.ncols(), run.ensemble.options);
     run.all_or_none(run.modes.reserve(n, kept + usize::from(options.center)))?;
-    let residuals = if options.residuals { m } else { 0 };
+    let residuals = if lift.measured { m } else { 0 };
     let (ensemble, modes) = (run.ensemble, run.modes);
     let part = |rows: Range<usize>| {
         let mut sum = Partial::zeros(kept * kept + 2 * residuals, kept);
@@ -70,7 +73,7 @@ impl Columns {
 /// Adds what is known of some rows of columns.
 ///
 /// * `weighted`: the same rows of F times the columns
-pub(super) fn add_columns(sum: &mut Partial, columns: MatRef<'_, f64>, weighted: MatRef<'_, f64>) {
+pub(crate) fn add_columns(sum: &mut Partial, columns: MatRef<'_, f64>, weighted: MatRef<'_, f64>) {
     for (of_column, column) in sum.extremes.iter_mut().zip(contiguous::columns(columns)) {
         *of_column = extreme_of(*of_column, column);
     }
@@ -97,12 +100,17 @@ impl Lift<'_> {
         modes.write(tile.rows.clone(), columns.subrows(0, count))?;
         let raw = columns.get(..count, ..kept).to_owned();
         ensemble.product.factor(tile.rows.clone(), columns.as_mut())?;
-        let weighted = columns.subrows(0, count);
-        add_columns(sum, raw.as_ref(), weighted.subcols(0, kept));
-        if ensemble.options.residuals {
+        if self.measured {
             ensemble.product.factor(tile.rows.clone(), tile.x.as_mut())?;
-            let z = tile.x.subrows_mut(0, count);
-            self.add_residuals(&mut sum.sums[kept * kept..], &ensemble.scale, weighted, z);
+        }
+        // By blocks: the tile depends on the memory that may be taken, the sums must not.
+        for Range { start, end } in Partition::pieces(0..count, ensemble.partition.block()) {
+            let weighted = columns.subrows(start, end - start);
+            add_columns(sum, raw.subrows(start, end - start), weighted.subcols(0, kept));
+            if self.measured {
+                let z = tile.x.as_mut().subrows_mut(start, end - start);
+                self.add_residuals(&mut sum.sums[kept * kept..], &ensemble.scale, weighted, z);
+            }
         }
         Ok(())
     }

@@ -54,7 +54,7 @@ pub(super) fn stream(
 
 /// Eigenvalues and eigenvectors of the correlation in time, or singular values and right
 /// singular vectors: the same thing.
-pub(super) struct Temporal {
+pub(crate) struct Temporal {
     pub spectrum: Spectrum,
     /// M x k, one column for each eigenvalue.
     pub vectors: Mat<f64>,

@@ -46,17 +46,19 @@ pub fn svd(
     super::in_memory(stream, x, w, options)
 }
 
-pub(super) fn stream(
+pub(crate) fn stream(
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
     options: &Options,
     execution: Execution<'_>,
     modes: &dyn ModeStore,
 ) -> Result<Decomposition, PodError> {
-    super::with_rows(x, w, options, execution, modes, &|run| {
-        let first = correlation(run, "correlation", None)?;
-        lift("svd", run, bi_orthogonal(run, first, WELL_CONDITIONED)?)
-    })
+    super::with_rows(x, w, options, execution, modes, &decompose)
+}
+
+pub(crate) fn decompose(run: &Run<'_>) -> Result<Decomposition, PodError> {
+    let first = correlation(run, "correlation", None)?;
+    lift("svd", run, bi_orthogonal(run, first, WELL_CONDITIONED)?)
 }
 
 /// Least eigenvalue of the Gram matrix of columns of norm one with which its factor is right to a few eps.
@@ -120,7 +122,7 @@ fn least_angle(cholesky: &PivotedCholesky, sufficient: f64) -> Result<f64, PodEr
 }
 
 /// The columns `a P` where `order` tells P.
-fn in_original_order(a: MatRef<'_, f64>, order: &[usize]) -> Mat<f64> {
+pub(crate) fn in_original_order(a: MatRef<'_, f64>, order: &[usize]) -> Mat<f64> {
     let mut original = Mat::zeros(a.nrows(), a.ncols());
     for (from, &to) in a.col_iter().zip(order) {
         original.col_mut(to).copy_from(from);

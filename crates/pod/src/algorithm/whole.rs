@@ -5,18 +5,21 @@ use crate::partial::extreme_of;
 use crate::run::Run;
 use crate::snapshots::MemorySnapshots;
 use crate::{
-    Decomposition, Execution, Identity, InnerProduct, MemoryModes, ModeStore, Options, PodError,
-    SnapshotSource,
+    Decomposition, Execution, Identity, InnerProduct, MemoryModes, ModeStore, NoJournal, Options,
+    PodError, SnapshotSource,
 };
 use faer::Mat;
 
 /// Decomposes `F X` in the Euclidean product; the modes are `F⁻¹` of what comes of it.
+///
+/// * `width`: columns of the sums that the algorithm takes, of M rows
 pub(super) fn with_columns(
     x: &dyn SnapshotSource,
     w: &dyn InnerProduct,
     options: &Options,
     execution: Execution<'_>,
     modes: &dyn ModeStore,
+    width: usize,
     algorithm: &dyn Fn(&Run<'_>) -> Result<Decomposition, PodError>,
 ) -> Result<Decomposition, PodError> {
     if execution.ranks.count() > 1 {
@@ -25,9 +28,11 @@ pub(super) fn with_columns(
     let (z, amplified) = weighted(x, w, options)?;
     let z = MemorySnapshots::new(z, x.times().to_vec());
     let identity = Identity::new(w.dim());
-    let mut ensemble = Ensemble::new(&z, &identity, options)?;
+    let mut ensemble = Ensemble::for_sums(&z, &identity, options, width)?;
     ensemble.amplified = amplified;
     let found = MemoryModes::default();
+    // Columns in memory do not outlive the process: no journal may count on them.
+    let execution = Execution { journal: &NoJournal, ..execution };
     let mut decomposition = algorithm(&Run::new(&ensemble, execution, &found))?;
     let (mut basis, mean) = found.into_parts();
     w.unfactor(basis.as_mut())?;

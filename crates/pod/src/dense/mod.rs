@@ -14,6 +14,7 @@ use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_
 use faer::linalg::matmul::matmul;
 use faer::linalg::svd::{ComputeSvdVectors, SvdParams, svd, svd_scratch};
 use faer::linalg::triangular_solve::solve_upper_triangular_in_place;
+use faer::reborrow::ReborrowMut;
 use faer::{Accum, Auto, Mat, MatRef, Par, Spec};
 
 /// Eigenvalues, largest first, and eigenvectors of a symmetric matrix.
@@ -71,6 +72,27 @@ fn bidiagonal_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodError> 
     )
     .map_err(|_| PodError::NoConvergence { size })?;
     Ok((values.column_vector().iter().copied().collect(), right))
+}
+
+/// Orthonormal columns, of which the first k span what the first k columns of `a` do (Gram-Schmidt, twice).
+/// Where a column adds nothing, zeros stand in its place.
+pub(crate) fn orthonormal(a: MatRef<'_, f64>) -> Mat<f64> {
+    let mut q = a.to_owned();
+    for k in 0..q.ncols() {
+        let (before, rest) = q.as_mut().split_at_col_mut(k);
+        let mut column = rest.col_mut(0);
+        for _ in 0..2 {
+            for q in before.as_ref().col_iter() {
+                let along = q.transpose() * column.as_ref();
+                column.rb_mut().iter_mut().zip(q.iter()).for_each(|(x, q)| *x -= along * q);
+            }
+            let norm = column.norm_l2();
+            if norm > 0.0 {
+                column.rb_mut().iter_mut().for_each(|x| *x /= norm);
+            }
+        }
+    }
+    q
 }
 
 /// `A B` on one thread.

@@ -69,32 +69,43 @@ impl Dtype {
         }
     }
 
-    /// The numbers in `bytes` as f64: integers beyond 2⁵³ are rounded.
-    pub fn decode(self, bytes: &[u8], out: &mut [f64]) {
+    /// Every `step`-th of the numbers in `bytes` as f64, as many as there are places: integers beyond
+    /// 2⁵³ are rounded.
+    pub fn decode<'o>(self, bytes: &[u8], step: usize, out: impl Iterator<Item = &'o mut f64>) {
         let big = self.big_endian;
         match self.kind {
-            Kind::F4 => each(bytes, big, out, |b| f32::from_le_bytes(b).into()),
-            Kind::F8 => each(bytes, big, out, f64::from_le_bytes),
-            Kind::I1 => each(bytes, big, out, |b| i8::from_le_bytes(b).into()),
-            Kind::I2 => each(bytes, big, out, |b| i16::from_le_bytes(b).into()),
-            Kind::I4 => each(bytes, big, out, |b| i32::from_le_bytes(b).into()),
-            Kind::I8 => each(bytes, big, out, |b| i64::from_le_bytes(b) as f64),
-            Kind::U1 => each(bytes, big, out, |b| u8::from_le_bytes(b).into()),
-            Kind::U2 => each(bytes, big, out, |b| u16::from_le_bytes(b).into()),
-            Kind::U4 => each(bytes, big, out, |b| u32::from_le_bytes(b).into()),
-            Kind::U8 => each(bytes, big, out, |b| u64::from_le_bytes(b) as f64),
+            Kind::F4 => each(bytes, step, big, out, |b| f32::from_le_bytes(b).into()),
+            Kind::F8 => each(bytes, step, big, out, f64::from_le_bytes),
+            Kind::I1 => each(bytes, step, big, out, |b| i8::from_le_bytes(b).into()),
+            Kind::I2 => each(bytes, step, big, out, |b| i16::from_le_bytes(b).into()),
+            Kind::I4 => each(bytes, step, big, out, |b| i32::from_le_bytes(b).into()),
+            Kind::I8 => each(bytes, step, big, out, |b| i64::from_le_bytes(b) as f64),
+            Kind::U1 => each(bytes, step, big, out, |b| u8::from_le_bytes(b).into()),
+            Kind::U2 => each(bytes, step, big, out, |b| u16::from_le_bytes(b).into()),
+            Kind::U4 => each(bytes, step, big, out, |b| u32::from_le_bytes(b).into()),
+            Kind::U8 => each(bytes, step, big, out, |b| u64::from_le_bytes(b) as f64),
         }
     }
 }
 
-fn each<const N: usize>(bytes: &[u8], big: bool, out: &mut [f64], number: impl Fn([u8; N]) -> f64) {
-    let (numbers, rest) = bytes.as_chunks::<N>();
-    assert!(rest.is_empty() && numbers.len() == out.len(), "as many numbers as places");
-    for (value, &little) in out.iter_mut().zip(numbers) {
+fn each<'o, const N: usize>(
+    bytes: &[u8],
+    step: usize,
+    big: bool,
+    out: impl Iterator<Item = &'o mut f64>,
+    number: impl Fn([u8; N]) -> f64,
+) {
+    let numbers = bytes.as_chunks::<N>().0;
+    let put = |(value, &little): (&mut f64, &[u8; N])| {
         let mut bytes = little;
         if big {
             bytes.reverse();
         }
         *value = number(bytes);
+    };
+    if step == 1 {
+        out.zip(numbers).for_each(put); // a loop that the compiler vectorises
+    } else {
+        out.zip(numbers.iter().step_by(step)).for_each(put);
     }
 }

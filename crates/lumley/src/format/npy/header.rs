@@ -8,6 +8,9 @@ const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// Longest header that is read; NumPy itself stops at 10 000 bytes.
 const LIMIT: u64 = 1 << 16;
 
+/// Most axes that are read, as many as NumPy has.
+const AXES: usize = 64;
+
 /// What stands before the numbers of an NPY file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Header {
@@ -157,6 +160,9 @@ impl Parser<'_> {
         let mut axes = Vec::new();
         self.expect(b'(', "a tuple of sizes")?;
         while !self.accept(b')') {
+            if axes.len() == AXES {
+                return Err("a tuple of at most 64 sizes");
+            }
             axes.push(self.integer()?);
             if !self.accept(b',') {
                 self.expect(b')', "a comma or the end of the tuple")?;

@@ -1,15 +1,10 @@
+use super::block::Lines;
 use super::header::Header;
 use crate::format::FormatError;
 use crate::format::region::Region;
 use faer::{Mat, MatMut};
 use std::ops::Range;
 use std::path::Path;
-
-/// Bytes that are read at a time.
-const BUFFER: usize = 1 << 20;
-
-/// Bytes that are rather read and thrown away than jumped over by another system call.
-const GAP: usize = 1 << 14;
 
 /// A matrix in an NPY file, read by blocks: the file need not fit into memory.
 ///
@@ -86,6 +81,16 @@ impl NpyMatrix {
         self.header.dtype.name()
     }
 
+    /// Bytes a number.
+    pub(super) fn item_size(&self) -> usize {
+        self.header.dtype.size()
+    }
+
+    /// Whether the file has one column after the other.
+    pub(super) fn is_by_columns(&self) -> bool {
+        self.header.fortran_order
+    }
+
     /// The file, or archive and member.
     pub fn path(&self) -> &Path {
         self.file.path()
@@ -109,10 +114,15 @@ impl NpyMatrix {
         if rows.is_empty() || cols.is_empty() {
             Ok(())
         } else if self.header.fortran_order {
-            self.read_lines(cols, rows, self.rows, out.transpose_mut())
+            self.lines(self.rows).read(cols, rows, out.transpose_mut())
         } else {
-            self.read_lines(rows, cols, self.cols, out)
+            self.lines(self.cols).read(rows, cols, out)
         }
+    }
+
+    fn lines(&self, length: usize) -> Lines<'_> {
+        let Header { dtype, data, .. } = self.header;
+        Lines { file: &self.file, dtype, start: data, length }
     }
 
     /// The whole matrix.
@@ -123,68 +133,6 @@ impl NpyMatrix {
         let mut out = Mat::zeros(self.rows, self.cols);
         self.read_block(0..self.rows, 0..self.cols, out.as_mut())?;
         Ok(out)
-    }
-
-    /// Row, column and value of the first number, in the order of the file, that is not finite.
-    ///
-    /// # Errors
-    /// [`FormatError::Io`].
-    pub fn first_non_finite(&self) -> Result<Option<(usize, usize, f64)>, FormatError> {
-        let total = self.rows * self.cols;
-        for first in (0..total).step_by(BUFFER / 8) {
-            let mut values = vec![0.0; (total - first).min(BUFFER / 8)];
-            self.read_span(first, &mut Vec::new(), &mut values)?;
-            if let Some(k) = values.iter().position(|value| !value.is_finite()) {
-                let (place, value) = (first + k, values[k]);
-                return Ok(Some(if self.header.fortran_order {
-                    (place % self.rows, place / self.rows, value)
-                } else {
-                    (place / self.cols, place % self.cols, value)
-                }));
-            }
-        }
-        Ok(None)
-    }
-
-    /// Reads `entries` of `lines`: a line is what is contiguous in the file, of length `stride`.
-    fn read_lines(
-        &self,
-        lines: Range<usize>,
-        entries: Range<usize>,
-        stride: usize,
-        mut out: MatMut<'_, f64>,
-    ) -> Result<(), FormatError> {
-        let size = self.header.dtype.size();
-        let at_once = match (stride - entries.len()) * size {
-            gap if gap > GAP => 1,
-            _ => (BUFFER / (stride * size)).max(1),
-        };
-        let (mut bytes, mut values) = (Vec::new(), Vec::new());
-        for first in lines.clone().step_by(at_once) {
-            let count = at_once.min(lines.end - first);
-            values.resize((count - 1) * stride + entries.len(), 0.0);
-            self.read_span(first * stride + entries.start, &mut bytes, &mut values)?;
-            for k in 0..count {
-                let line = &values[k * stride..][..entries.len()];
-                let target = out.as_mut().row_mut(first - lines.start + k);
-                target.iter_mut().zip(line).for_each(|(out, value)| *out = *value);
-            }
-        }
-        Ok(())
-    }
-
-    /// Fills `values` with the numbers that stand in the file from number `first` on.
-    fn read_span(
-        &self,
-        first: usize,
-        bytes: &mut Vec<u8>,
-        values: &mut [f64],
-    ) -> Result<(), FormatError> {
-        let size = self.header.dtype.size();
-        bytes.resize(values.len() * size, 0);
-        self.file.read(self.header.data + (first * size) as u64, bytes)?;
-        self.header.dtype.decode(bytes, values);
-        Ok(())
     }
 }
 
@@ -202,6 +150,13 @@ impl NpyMatrix {
     /// # Errors
     /// [`FormatError`]: the matrix is not a vector, or the system refused.
     pub fn read_as_vector(&self) -> Result<Vec<f64>, FormatError> {
+        let mut values = vec![0.0; self.vector_length()?];
+        self.read_vector_part(0, &mut values)?;
+        Ok(values)
+    }
+
+    /// Length of a matrix of one row or one column.
+    pub(super) fn vector_length(&self) -> Result<usize, FormatError> {
         if self.rows != 1 && self.cols != 1 {
             return Err(FormatError::Shape {
                 path: self.path().to_owned(),
@@ -209,8 +164,18 @@ impl NpyMatrix {
                 expected: "a vector",
             });
         }
-        let mut values = vec![0.0; self.rows * self.cols];
-        self.read_span(0, &mut Vec::new(), &mut values)?;
-        Ok(values)
+        Ok(self.rows * self.cols)
+    }
+
+    /// Fills `part` with the entries of a matrix of one row or one column from entry `first` on.
+    pub(super) fn read_vector_part(
+        &self,
+        first: usize,
+        part: &mut [f64],
+    ) -> Result<(), FormatError> {
+        let all = first..first + part.len();
+        let (rows, cols) = if self.cols == 1 { (all, 0..1) } else { (0..1, all) };
+        let out = MatMut::from_column_major_slice_mut(part, rows.len(), cols.len());
+        self.read_block(rows, cols, out)
     }
 }

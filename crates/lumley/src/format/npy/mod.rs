@@ -2,13 +2,16 @@
 //!
 //! Source: NumPy enhancement proposal 1, "A simple file format for NumPy arrays".
 
+mod block;
 mod dtype;
 mod header;
 mod matrix;
 mod snapshots;
+mod weights;
 mod write;
 
 pub use matrix::{NpyMatrix, read_vector};
 pub use snapshots::{NpySnapshots, SnapshotLayout};
+pub use weights::NpyWeights;
 pub use write::{NpyWriter, write_matrix, write_vector};
 pub(in crate::format) use write::{file_size, header, push_columns};

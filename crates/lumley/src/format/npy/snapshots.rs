@@ -7,6 +7,15 @@ use std::io;
 use std::ops::Range;
 use std::path::Path;
 
+/// Bytes of each snapshot that are worth a jump in a file that has one after the other.
+const SPAN: usize = 1 << 16;
+
+/// Bytes of a block that are not worth more, however many snapshots there are.
+const MOST: usize = 1 << 25;
+
+/// Bytes of a block from a file that has the unknowns one after the other: it stays in the cache.
+const LINES: usize = 1 << 21;
+
 /// Which axis of an array counts the snapshots.
 ///
 /// ```
@@ -92,22 +101,6 @@ impl NpySnapshots {
     pub fn matrix(&self) -> &NpyMatrix {
         &self.matrix
     }
-
-    /// Reads everything once and refuses the first number that is not finite.
-    ///
-    /// # Errors
-    /// [`FormatError::NonFinite`] with its place, or [`FormatError::Io`].
-    pub fn check_finite(&self) -> Result<(), FormatError> {
-        let Some((row, col, value)) = self.matrix.first_non_finite()? else {
-            return Ok(());
-        };
-        let (snapshot, row) = match self.layout {
-            SnapshotLayout::Rows => (row, col),
-            SnapshotLayout::Columns => (col, row),
-        };
-        let path = self.matrix.path().to_owned();
-        Err(FormatError::NonFinite { path, snapshot, row, value })
-    }
 }
 
 impl SnapshotSource for NpySnapshots {
@@ -133,5 +126,14 @@ impl SnapshotSource for NpySnapshots {
             SnapshotLayout::Columns => self.matrix.read_block(rows, cols, out),
         };
         read.map_err(io::Error::other)
+    }
+
+    fn read_size(&self) -> usize {
+        let one_by_one = (self.layout == SnapshotLayout::Rows) != self.matrix.is_by_columns();
+        if one_by_one {
+            (8 * (SPAN / self.matrix.item_size()) * self.times.len()).min(MOST)
+        } else {
+            LINES
+        }
     }
 }

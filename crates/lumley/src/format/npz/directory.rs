@@ -30,7 +30,7 @@ pub(super) struct Entry {
 pub(super) fn read(file: &Region) -> Result<(Vec<Entry>, u64), FormatError> {
     let (count, size, start) = find(file)?;
     let mut bytes = vec![0; usize::try_from(size).expect("a short directory")];
-    file.read(start, &mut bytes)?;
+    read_at(file, start, &mut bytes, "the directory")?;
     let mut cursor = Cursor { file, start, bytes: &bytes, at: 0 };
     let mut entries = Vec::new();
     while cursor.at < bytes.len() {
@@ -75,13 +75,13 @@ fn find(file: &Region) -> Result<(u64, u64, u64), FormatError> {
 fn find64(file: &Region, end: u64) -> Result<(u64, u64, u64), FormatError> {
     let mut bytes = [0; 20];
     let start = end.saturating_sub(20);
-    file.read(start, &mut bytes)?;
+    read_at(file, start, &mut bytes, "the ZIP64 locator")?;
     let mut cursor = Cursor { file, start, bytes: &bytes, at: 0 };
     cursor.signature(LOCATOR64, "the ZIP64 locator")?;
     cursor.skip(4)?;
     let start = cursor.u64()?;
     let mut bytes = [0; 56];
-    file.read(start, &mut bytes)?;
+    read_at(file, start, &mut bytes, "the ZIP64 end of the directory")?;
     let mut cursor = Cursor { file, start, bytes: &bytes, at: 0 };
     cursor.signature(END64, "the ZIP64 end of the directory")?;
     cursor.skip(28)?;
@@ -123,7 +123,7 @@ fn entry(cursor: &mut Cursor) -> Result<Entry, FormatError> {
 /// Where the bytes of `entry` lie: its local header is read, and must agree.
 pub(super) fn member(file: &Region, entry: &Entry, end: u64) -> Result<Region, FormatError> {
     let (start, mut bytes) = (entry.local, vec![0; 30 + entry.name.len()]);
-    file.read(start, &mut bytes)?;
+    read_at(file, start, &mut bytes, "the header of a member")?;
     let mut cursor = Cursor { file, start, bytes: &bytes, at: 0 };
     cursor.signature(LOCAL, "the header of a member")?;
     cursor.skip(22)?;
@@ -137,6 +137,20 @@ pub(super) fn member(file: &Region, entry: &Entry, end: u64) -> Result<Region, F
         return Err(cursor.wrong("a member that ends before the directory"));
     }
     Ok(file.part(data, entry.size, &entry.name))
+}
+
+/// Fills `bytes` from `start` on, where an archive tells that something stands.
+fn read_at(
+    file: &Region,
+    start: u64,
+    bytes: &mut [u8],
+    expected: &'static str,
+) -> Result<(), FormatError> {
+    if start.checked_add(bytes.len() as u64).is_none_or(|end| end > file.len()) {
+        let (path, found) = (file.path().to_owned(), "the end of the file".to_owned());
+        return Err(FormatError::Bytes { path, offset: start, found, expected });
+    }
+    file.read(start, bytes)
 }
 
 /// Reads little-endian numbers, never beyond the end.

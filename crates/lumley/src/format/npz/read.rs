@@ -1,10 +1,14 @@
 use super::crc32::crc32;
 use super::directory::{self, Entry};
 use crate::format::FormatError;
+use crate::format::error::excerpt;
 use crate::format::npy::NpyMatrix;
 use crate::format::region::Region;
 use faer::Mat;
 use std::path::Path;
+
+/// Names that a message lists at most.
+const LISTED: usize = 10;
 
 /// The named arrays of an NPZ archive.
 ///
@@ -68,7 +72,7 @@ impl NpzReader {
         let entry = entry.ok_or_else(|| FormatError::NoSuchArray {
             path: self.file.path().to_owned(),
             name: name.to_owned(),
-            available: self.names().map(str::to_owned).collect(),
+            available: self.names().take(LISTED).map(|name| excerpt(name.as_bytes())).collect(),
         })?;
         if entry.method != 0 || entry.encrypted || entry.packed != entry.size {
             let path = self.file.path().join(&entry.name);

@@ -49,6 +49,8 @@ pub struct PodReport {
     pub eigenvalues: Vec<f64>,
     /// Sum of all λ, also of modes that are not kept.
     pub total_energy: f64,
+    /// Most that an eigenvalue may be smaller than the exact one, where the method approximates.
+    pub error_bound: Option<f64>,
     /// What is drawn of the modes, where their grid is known.
     pub modes: Option<DrawnModes>,
     /// `a_n` at the snapshots, one row for each mode.
@@ -95,6 +97,7 @@ impl PodReport {
     fn what(&self) -> Section {
         let mean = if self.centred { "subtracted" } else { "not subtracted" };
         let row = |name: &str, value: String| vec![name.to_string(), value];
+        let bound = |most| format!("*λ* at most {} too small", significant(most, 2));
         let table = Table::new(&[]).labels(2).rows([
             row("snapshots", literal(&self.source)),
             row("size", format!("{} × {}", count(self.snapshots), count(self.unknowns))),
@@ -103,6 +106,7 @@ impl PodReport {
             row("method", literal(&self.method)),
             row("because", literal(&self.reason)),
         ]);
+        let table = table.rows(self.error_bound.map(|most| row("error bound", bound(most))));
         let section = Section::new("What was done").table(&table);
         self.warnings.iter().fold(section, |section, text| section.warning(&literal(text)))
     }

@@ -1,15 +1,16 @@
 //! The files that a decomposition begins with: snapshots, weights, times.
 
 use super::PodInput;
+use super::old::OldFile;
 use crate::Error;
 use crate::directory::DirectoryError;
-use crate::format::npy::{NpySnapshots, SnapshotLayout, read_vector};
+use crate::format::npy::{NpySnapshots, NpyWeights, SnapshotLayout, read_vector};
 use crate::manifest::Input;
 use crate::record::{Record, Support};
 use crate::report::FieldGrid;
 use crate::run::ground::grid_product;
 use lumley_pod::time_weights::trapezoid;
-use lumley_pod::{Diagonal, Identity, InnerProduct, SnapshotSource};
+use lumley_pod::{Identity, InnerProduct, SnapshotSource};
 use std::path::{Path, PathBuf};
 
 /// Snapshots, their inner product and the words for it.
@@ -22,18 +23,25 @@ pub(super) struct Opened {
     pub product: Box<dyn InnerProduct>,
     pub inner_product: String,
     pub grid: Option<FieldGrid>,
+    /// The basis that the snapshots update.
+    pub old: Option<OldFile>,
 }
 
 impl PodInput {
-    pub(super) fn open(&self) -> Result<Opened, Error> {
+    /// * `target`: the run that is made
+    pub(super) fn open(&self, target: &Path) -> Result<Opened, Error> {
+        let old = self.open_old(target)?;
         let inner = self.path.join("record");
         let record = if inner.is_dir() { &inner } else { &self.path };
-        if record.join("zarr.json").is_file() { self.open_record(record) } else { self.open_npy() }
+        let of_record = record.join("zarr.json").is_file();
+        let opened = if of_record { self.open_record(record) } else { self.open_npy() }?;
+        Ok(Opened { old, ..opened })
     }
 
     /// The files that were read, by name, length and checksum.
     pub(super) fn inputs(&self) -> Result<Vec<Input>, Error> {
-        let files = [Some(&self.path), self.weights.as_ref(), self.times.as_ref()];
+        let old = self.old_path();
+        let files = [Some(&self.path), self.weights.as_ref(), self.times.as_ref(), old.as_ref()];
         let files = files.into_iter().flatten().filter(|path| path.is_file());
         let input = |path: &PathBuf| {
             let failed = |source| DirectoryError::Io { action: "read", path: path.clone(), source };
@@ -70,7 +78,7 @@ impl PodInput {
         };
         let snapshots = Box::new(snapshots);
         let (timed, grid) = (self.times.is_some(), self.grid);
-        Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid })
+        Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid, old: None })
     }
 
     fn open_record(&self, path: &Path) -> Result<Opened, Error> {
@@ -105,7 +113,7 @@ impl PodInput {
         let time_weights = unequal(snapshots.times());
         let snapshots = Box::new(snapshots);
         let (timed, grid) = (true, field_grid);
-        Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid })
+        Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid, old: None })
     }
 
     /// The weights' inner product, each node's repeated for its components; without weights, identity.
@@ -117,10 +125,10 @@ impl PodInput {
         let Some(path) = &self.weights else {
             return Ok((Box::new(Identity::new(unknowns)), "identity".into()));
         };
-        let weights = read_vector(path)?;
-        let repeated = match weights.len() {
+        let weights = NpyWeights::open(path)?;
+        let product = match weights.dim() {
             n if n == unknowns => weights,
-            n if n.checked_mul(components) == Some(unknowns) => weights.repeat(components),
+            n if n.checked_mul(components) == Some(unknowns) => weights.repeated(components),
             n => {
                 return Err(Error::Argument {
                     argument: "--weights",
@@ -129,14 +137,12 @@ impl PodInput {
                 });
             }
         };
-        let product = Diagonal::new(repeated)
-            .map_err(|source| Error::Weights { path: path.clone(), source })?;
         Ok((Box::new(product), format!("weights of {}", path.display())))
     }
 }
 
 /// Weights of the trapezoid rule where the steps between `times` differ; equal steps weigh all alike.
-fn unequal(times: &[f64]) -> Option<Vec<f64>> {
+pub(super) fn unequal(times: &[f64]) -> Option<Vec<f64>> {
     let mean = (times.last()? - times.first()?) / (times.len() - 1).max(1) as f64;
     let differ = times.windows(2).any(|pair| (pair[1] - pair[0] - mean).abs() > 1e-6 * mean);
     if differ { trapezoid(times).ok() } else { None }
