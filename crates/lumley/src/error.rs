@@ -5,7 +5,7 @@ use crate::model::StepError;
 use crate::ranks::RanksError;
 use crate::record::RecordError;
 use lumley_fom::PistonError;
-use lumley_pod::{Failure, InnerProductError, PodError};
+use lumley_pod::{Failure, PodError};
 use lumley_rom::ReducedError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -47,14 +47,6 @@ pub enum Error {
         path: PathBuf,
         /// What is wrong with them.
         source: PodError,
-    },
-    /// The inner product cannot be used.
-    #[error("{}: {source}", path.display())]
-    Weights {
-        /// The file of the weights.
-        path: PathBuf,
-        /// What is wrong with them.
-        source: InnerProductError,
     },
     /// The full-order model does not accept the case.
     #[error(transparent)]

@@ -6,7 +6,7 @@ use common::{grid, random_matrix, times, with_singular_values};
 use faer::{Mat, MatMut, MatRef};
 use lumley_pod::{
     ALGORITHMS, APPROXIMATIONS, Execution, Identity, MemorySnapshots, ModeStore, OldBasis, Options,
-    PodError, Ranks, SnapshotSource, Truncation, all_or_none, svd, update,
+    PodError, Ranks, SnapshotSource, Truncation, all_or_none, finite_snapshots, svd, update,
 };
 use std::io;
 use std::ops::Range;
@@ -264,4 +264,16 @@ fn the_first_failure_is_told_to_all() {
         all_or_none(ranks, Ok::<_, PodError>(ranks.rank()), |_| unreachable!("nothing fails"))
     });
     assert!(fine.into_iter().enumerate().all(|(rank, told)| told.expect("no failure") == rank));
+}
+
+#[test]
+fn every_rank_learns_which_snapshots_are_finite() {
+    let mut x = random_matrix(N, 5, 1);
+    (x[(0, 1)], x[(N - 1, 3)]) = (f64::NAN, f64::INFINITY);
+    let x = MemorySnapshots::new(x, times(5));
+    let finite = on_ranks(4, |ranks| {
+        let execution = Execution { ranks, ..Execution::default() };
+        finite_snapshots(&x, &Options::default(), execution).expect("x is in memory")
+    });
+    assert!(finite.iter().all(|of_rank| *of_rank == [0, 2, 4]), "{finite:?}");
 }

@@ -124,9 +124,9 @@ impl Metadata {
         }
         let text = read_text(&path, LIMIT)?;
         // Of another version nothing else may be as it is in this one.
-        let other = serde_json::from_str(&text).ok().map(|version: AnyVersion| version.attributes);
-        if let Some(found) = other.map(|any| any.lumley.format).filter(|v| *v != u64::from(FORMAT))
-        {
+        let any: Option<AnyVersion> = serde_json::from_str(&text).ok();
+        let format = any.map(|any| any.attributes.lumley.format);
+        if let Some(found) = format.filter(|format| *format != u64::from(FORMAT)) {
             return Err(RecordError::Version { path, found, supported: FORMAT });
         }
         let Attributes { lumley: metadata, lumley_crc32c: stored } = parse_group(&path, &text)?;

@@ -3,6 +3,7 @@
 mod bad_input;
 mod interrupted;
 mod pod;
+mod pod_faults;
 mod rom;
 mod run;
 mod update;

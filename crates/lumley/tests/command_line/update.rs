@@ -51,8 +51,8 @@ fn a_basis_is_updated_by_another_file() {
 #[test]
 fn what_was_truncated_is_the_error_bound() {
     let desk = desk_with_waves();
-    [("a.npy", 0..20), ("b.npy", 20..30), ("c.npy", 30..40)]
-        .map(|(name, rows)| part(&desk, name, rows));
+    let parts = [("a.npy", 0..20), ("b.npy", 20..30), ("c.npy", 30..40)];
+    parts.into_iter().for_each(|(name, rows)| part(&desk, name, rows));
     let exact = summary(&desk, &["--method", "svd", "--modes", "3", "-o", "exact"]).pod.eigenvalues;
     let run = |arguments: &[&str]| -> Summary {
         let answer =
@@ -91,8 +91,10 @@ fn a_basis_that_does_not_fit_is_refused() {
             npz.vector(array, lambda).expect("written");
         }
         let two = [("times", [0.0, 1.0]), ("time_weights", [0.5, 0.5])];
-        two.map(|(array, values)| npz.vector(array, &values).expect("written"));
-        ["noise_floor", "total_energy"].map(|array| npz.vector(array, &[0.0]).expect("written"));
+        two.iter().for_each(|(array, values)| npz.vector(array, values).expect("written"));
+        for array in ["noise_floor", "total_energy"] {
+            npz.vector(array, &[0.0]).expect("written");
+        }
         npz.finish().expect("written");
     };
     forged("negative.npz", &[1.0, -1.0], 2);
@@ -100,7 +102,7 @@ fn a_basis_that_does_not_fit_is_refused() {
     forged("rows.npz", &[2.0, 1.0], 3);
     let table: [(&[&str], &[&str]); 11] = [
         (&["short.npy", "--update", "old"], &["short.npy", "50 unknowns", "modes have 60"]),
-        (&["x.npy", "--update", "x.npy"], &["x.npy", "ZIP"]),
+        (&["x.npy", "--update", "x.npy"], &["x.npy", "NPZ archive"]),
         (&["x.npy", "--update", "none"], &["none"]),
         (&["x.npy", "--update", "."], &["pod.npz"]),
         (&["x.npy", "--update", "negative.npz"], &["negative.npz", "eigenvalues", "no negative"]),
@@ -118,4 +120,22 @@ fn a_basis_that_does_not_fit_is_refused() {
         assert!(!desk.path("out.partial").exists(), "{arguments:?}");
     }
     assert!(desk.path("old/pod.npz").is_file());
+}
+
+/// An unfinished update goes on with the old basis that it was begun with, and with no other.
+#[test]
+fn the_old_basis_is_an_input() {
+    let desk = desk_with_waves();
+    for (old, modes) in [("one", "1"), ("two", "2")] {
+        desk.lumley(&["pod", "x.npy", "--modes", modes, "-o", old]).good();
+    }
+    let update = |old: &str, resume: &[&str]| {
+        desk.lumley(&[&["pod", "x.npy", "--update", old, "-o", "out"], resume].concat())
+    };
+    update("one", &[]).good();
+    let whole = std::fs::read(desk.path("out/pod.npz")).expect("modes");
+    std::fs::rename(desk.path("out"), desk.path("out.partial")).expect("as if it were unfinished");
+    update("two", &["--resume"]).refused(2, &["was begun with other snapshots"]);
+    update("one", &["--resume"]).good();
+    assert!(std::fs::read(desk.path("out/pod.npz")).expect("modes") == whole);
 }

@@ -1,4 +1,4 @@
-use crate::format::atomic;
+use crate::format::{FormatError, atomic};
 use lumley_pod::Journal;
 use std::cell::Cell;
 use std::fs;
@@ -36,7 +36,7 @@ impl Journal for FileJournal {
         let path = self.path(name);
         let mut bytes = match fs::read(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            read => read.map_err(|error| named(&path, &error))?,
+            read => read.map_err(failed("read", &path))?,
         };
         let Some((entry, crc)) = bytes.split_last_chunk() else { return Err(damaged(&path)) };
         if crc32c::crc32c(entry) != u32::from_le_bytes(*crc) {
@@ -49,7 +49,7 @@ impl Journal for FileJournal {
     fn save(&self, name: &str, entry: &[u8]) -> io::Result<()> {
         let path = self.path(name);
         let bytes = [entry, &crc32c::crc32c(entry).to_le_bytes()].concat();
-        atomic::write(&path, &bytes).map_err(|error| named(&path, &error))?;
+        atomic::write(&path, &bytes).map_err(failed("write", &path))?;
         self.saved.set(Instant::now());
         Ok(())
     }
@@ -59,16 +59,15 @@ impl Journal for FileJournal {
     }
 }
 
-fn named(path: &Path, error: &io::Error) -> io::Error {
-    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+fn failed<'a>(action: &'static str, path: &'a Path) -> impl Fn(io::Error) -> io::Error + 'a {
+    move |source| io::Error::other(FormatError::Io { action, path: path.to_owned(), source })
 }
 
 fn damaged(path: &Path) -> io::Error {
-    let message = format!(
+    io::Error::other(format!(
         "{} is damaged: its checksum does not fit\n  help: begin again with --force",
         path.display()
-    );
-    io::Error::new(io::ErrorKind::InvalidData, message)
+    ))
 }
 
 #[cfg(test)]

@@ -1,4 +1,6 @@
-//! Ranks over MPI. Each test starts this program again under `mpirun`, as the ranks of one job.
+//! Ranks over MPI. Each test starts this program again under `mpirun`, as the ranks of one job, or lumley.
+
+mod pod;
 
 use lumley::ranks::{Job, RanksError};
 use lumley_pod::Ranks;
@@ -16,12 +18,17 @@ const PROGRAMS: [(&str, Program); 4] = [
     ("leave", leave_on_rank_1),
 ];
 
-const TESTS: [(&str, fn()); 5] = [
+const TESTS: [(&str, fn()); 10] = [
     ("messages arrive whole and in order", messages_arrive_whole_and_in_order),
     ("a panic ends the job", a_panic_ends_the_job),
     ("an error ends the job with its status", an_error_ends_the_job_with_its_status),
     ("a rank that leaves ends the job", a_rank_that_leaves_ends_the_job),
     ("a foreign launcher is noticed", a_foreign_launcher_is_noticed),
+    ("any number of ranks gives the same bytes", pod::any_number_of_ranks_gives_the_same_bytes),
+    ("a missing file ends the job", pod::a_missing_file_ends_the_job),
+    ("a full disk under one rank is kept", pod::a_full_disk_under_one_rank_is_kept_for_resume),
+    ("a killed job resumes", pod::a_killed_job_resumes),
+    ("other commands refuse", pod::other_commands_refuse),
 ];
 
 fn main() -> ExitCode {
@@ -48,7 +55,7 @@ fn start(program: Program) -> ExitCode {
 
 fn messages_arrive_whole_and_in_order() {
     for count in 1..=4 {
-        let output = mpirun(count, "exchange");
+        let output = run(count, "exchange");
         assert!(output.status.success(), "{count} ranks: {}", stderr(&output));
         assert_eq!(stderr(&output), "", "{count} ranks");
     }
@@ -153,7 +160,7 @@ fn wait_for(rank: usize, job: Job) -> ExitCode {
 /// Checks that a job ends with `status`, long before `mpirun` would end it, and gives what it said.
 fn failing(count: usize, program: &str, status: i32) -> String {
     let started = Instant::now();
-    let output = mpirun(count, program);
+    let output = run(count, program);
     let (took, said) = (started.elapsed(), stderr(&output));
     assert!(took < Duration::from_secs(15), "{program} took {took:?}: {said}");
     assert_eq!(output.status.code(), Some(status), "{program}: {said}");
@@ -161,15 +168,17 @@ fn failing(count: usize, program: &str, status: i32) -> String {
 }
 
 /// More ranks than cores, and at most a minute.
-fn mpirun(count: usize, program: &str) -> Output {
-    Command::new("mpirun")
-        .env("OMPI_MCA_rmaps_base_oversubscribe", "1")
-        .env("MPIEXEC_TIMEOUT", "60")
-        .args(["-n", &count.to_string()])
-        .arg(this_program().get_program())
-        .arg(program)
-        .output()
-        .expect("mpirun is in the PATH, with the MPI that lumley was built with")
+fn mpirun(count: usize) -> Command {
+    let mut mpirun = Command::new("mpirun");
+    mpirun.env("OMPI_MCA_rmaps_base_oversubscribe", "1").env("MPIEXEC_TIMEOUT", "60");
+    mpirun.args(["-n", &count.to_string()]);
+    mpirun
+}
+
+fn run(count: usize, program: &str) -> Output {
+    let mut mpirun = mpirun(count);
+    mpirun.arg(this_program().get_program()).arg(program);
+    mpirun.output().expect("mpirun is in the PATH, with the MPI that lumley was built with")
 }
 
 fn this_program() -> Command {

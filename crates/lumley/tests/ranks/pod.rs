@@ -1,0 +1,131 @@
+//! `lumley pod` under `mpirun`.
+
+use super::{mpirun, stderr};
+use faer::Mat;
+use lumley::format::npy::{write_matrix, write_vector};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+use tempfile::TempDir;
+
+const LUMLEY: &str = env!("CARGO_BIN_EXE_lumley");
+
+/// A directory with snapshots of `unknowns` and weights.
+fn desk(unknowns: usize) -> TempDir {
+    let desk = tempfile::tempdir().expect("a temporary directory");
+    let of_time = Mat::from_fn(40, 8, |k, n| ((k * (n + 1)) as f64).cos() / 10_f64.powf(n as f64));
+    let in_space = Mat::from_fn(8, unknowns, |n, i| (1e-3 * (i * (2 * n + 1)) as f64).sin());
+    write_matrix(desk.path().join("x.npy"), (of_time * in_space).as_ref()).expect("a file");
+    let weights: Vec<f64> = (0..unknowns).map(|i| 1.0 + (i % 3) as f64).collect();
+    write_vector(desk.path().join("w.npy"), &weights).expect("a file");
+    desk
+}
+
+/// A job of `count` ranks of the shell's `command`, in which `"$0"` is lumley.
+fn job(desk: &Path, count: usize, command: &str) -> Command {
+    let mut mpirun = mpirun(count);
+    mpirun.args(["sh", "-c", command, LUMLEY]).current_dir(desk);
+    mpirun
+}
+
+fn finished(desk: &Path, count: usize, command: &str) -> Output {
+    job(desk, count, command).output().expect("mpirun starts")
+}
+
+/// A job that ends with code 2, soon, and says all of these things.
+fn refused(desk: &Path, count: usize, command: &str, words: &[&str]) {
+    let started = Instant::now();
+    let output = finished(desk, count, command);
+    let (took, said) = (started.elapsed(), stderr(&output));
+    assert!(took < Duration::from_secs(15), "{command} took {took:?}: {said}");
+    assert_eq!(output.status.code(), Some(2), "{command}: {said}");
+    words.iter().for_each(|word| assert!(said.contains(word), "no {word:?} in: {said}"));
+    assert_eq!(said.matches("error:").count(), 1, "{said}");
+}
+
+fn good(output: &Output) {
+    assert!(output.status.success(), "{}", stderr(output));
+}
+
+const POD: &str = "exec \"$0\" pod x.npy --weights w.npy --modes 6 --method svd --threads 1";
+
+/// The modes and the summary do not depend on the number of ranks.
+pub fn any_number_of_ranks_gives_the_same_bytes() {
+    let desk = desk(20_011);
+    let files = |count: usize| {
+        good(&finished(desk.path(), count, &format!("{POD} -o out-{count}")));
+        let out = desk.path().join(format!("out-{count}"));
+        let summary = fs::read_to_string(out.join("summary.json")).expect("a summary");
+        let summary = summary.replace(&format!("out-{count}"), "out");
+        (fs::read(out.join("pod.npz")).expect("modes"), summary)
+    };
+    let alone = files(1);
+    for count in 2..=4 {
+        let (modes, summary) = files(count);
+        assert!(modes == alone.0, "{count} ranks: other modes");
+        assert_eq!(summary, alone.1, "{count} ranks");
+    }
+}
+
+/// One rank without its file ends the job, and says which file; so do all of them, once.
+pub fn a_missing_file_ends_the_job() {
+    let desk = desk(100);
+    let second = "[ $OMPI_COMM_WORLD_RANK = 2 ] && exec \"$0\" pod gone.npy -o out;";
+    let all = format!("{second} {POD} -o out");
+    refused(desk.path(), 4, &all, &["rank 2: ", "gone.npy", "No such file"]);
+    refused(desk.path(), 3, "exec \"$0\" pod gone.npy -o out", &["gone.npy", "No such file"]);
+    assert!(!desk.path().join("out").exists() && !desk.path().join("out.partial").exists());
+}
+
+/// What one rank alone writes fails on a full disk: what was done is kept, and gone on with.
+pub fn a_full_disk_under_one_rank_is_kept_for_resume() {
+    let desk = desk(20_011);
+    let full = "[ $OMPI_COMM_WORLD_RANK = 2 ] && trap '' XFSZ && ulimit -f 1000;";
+    refused(desk.path(), 3, &format!("{full} {POD} -o out"), &["rank 2: ", "modes.scratch"]);
+    good(&finished(desk.path(), 3, &format!("{POD} -o out --resume")));
+    good(&finished(desk.path(), 1, &format!("{POD} -o whole")));
+    assert!(modes(desk.path(), "out") == modes(desk.path(), "whole"), "other modes");
+}
+
+fn modes(desk: &Path, out: &str) -> Vec<u8> {
+    fs::read(desk.join(out).join("pod.npz")).expect("modes")
+}
+
+/// A job that is ended from outside goes on where it was, also with another number of ranks.
+pub fn a_killed_job_resumes() {
+    let desk = desk(200_003);
+    good(&finished(desk.path(), 1, &format!("{POD} -o whole")));
+    for (count, sign) in [(4, "1-correlation-1-of-4"), (4, "2-refinement-3-of-4"), (2, "3-modes")] {
+        kill_at(desk.path(), &format!("work/{sign}.sum"));
+        good(&finished(desk.path(), count, &format!("{POD} -o out --resume")));
+        assert!(modes(desk.path(), "out") == modes(desk.path(), "whole"), "killed at {sign}");
+        fs::remove_dir_all(desk.path().join("out")).expect("removed");
+    }
+}
+
+/// Ends a job of four ranks as soon as `sign` stands in its directory.
+fn kill_at(desk: &Path, sign: &str) {
+    let sign: PathBuf = desk.join("out.partial").join(sign);
+    let mut mpirun = job(desk, 4, &format!("{POD} --checkpoint 0 -o out"));
+    let mut child = mpirun.spawn().expect("mpirun starts");
+    let started = Instant::now();
+    while !sign.exists() {
+        assert!(started.elapsed() < Duration::from_secs(60), "no {sign:?} in a minute");
+        assert!(child.try_wait().expect("its state").is_none(), "it ended before {sign:?}");
+        sleep(Duration::from_micros(200));
+    }
+    let kill = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(kill.expect("kill starts").success());
+    assert!(!child.wait().expect("it ends").success(), "killed at {sign:?}");
+}
+
+/// Commands that cannot share their work say so, once.
+pub fn other_commands_refuse() {
+    let desk = desk(100);
+    for command in ["cases", "info x.npy", "verify"] {
+        let words = ["only `lumley pod`", "without mpirun"];
+        refused(desk.path(), 2, &format!("exec \"$0\" {command}"), &words);
+    }
+}
