@@ -51,8 +51,9 @@ fn a_basis_is_updated_by_another_file() {
 #[test]
 fn what_was_truncated_is_the_error_bound() {
     let desk = desk_with_waves();
-    let parts = [("a.npy", 0..20), ("b.npy", 20..30), ("c.npy", 30..40)];
-    parts.into_iter().for_each(|(name, rows)| part(&desk, name, rows));
+    for (name, rows) in [("a.npy", 0..20), ("b.npy", 20..30), ("c.npy", 30..40)] {
+        part(&desk, name, rows);
+    }
     let exact = summary(&desk, &["--method", "svd", "--modes", "3", "-o", "exact"]).pod.eigenvalues;
     let run = |arguments: &[&str]| -> Summary {
         let answer =
@@ -90,8 +91,9 @@ fn a_basis_that_does_not_fit_is_refused() {
         for array in ["eigenvalues", "singular_values", "spectrum"] {
             npz.vector(array, lambda).expect("written");
         }
-        let two = [("times", [0.0, 1.0]), ("time_weights", [0.5, 0.5])];
-        two.iter().for_each(|(array, values)| npz.vector(array, values).expect("written"));
+        for (array, values) in [("times", [0.0, 1.0]), ("time_weights", [0.5, 0.5])] {
+            npz.vector(array, &values).expect("written");
+        }
         for array in ["noise_floor", "total_energy"] {
             npz.vector(array, &[0.0]).expect("written");
         }

@@ -117,8 +117,9 @@ impl OldFile {
         let mut found = update(old, x, opened.product.as_ref(), options, execution, modes)?;
         if !opened.timed {
             // Numbers in the place of times go on from the old snapshots.
-            let new = &mut found.times[self.snapshots()..];
-            new.iter_mut().for_each(|number| *number += self.snapshots() as f64);
+            for number in &mut found.times[self.snapshots()..] {
+                *number += self.snapshots() as f64;
+            }
         }
         Ok(found)
     }
