@@ -96,6 +96,9 @@ pub fn from_first<E: From<Failure>>(
 ///
 /// # Errors
 /// The failure itself on the first rank that has one, what is made of a [`Failure`] on the others.
+///
+/// # Panics
+/// Never: rank 0 always has an outcome of its own.
 pub fn all_or_none<T, E: From<Failure>>(
     ranks: &dyn Ranks,
     mine: Result<T, E>,

@@ -162,7 +162,9 @@ impl<'a> Ensemble<'a> {
         }
         if self.options.time_weights.is_some() {
             for (column, s) in columns_mut(x).zip(&self.scale[cols]) {
-                column.iter_mut().for_each(|x| *x *= s);
+                for x in column {
+                    *x *= s;
+                }
             }
         }
     }

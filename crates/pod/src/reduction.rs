@@ -75,8 +75,7 @@ impl Reduction<'_> {
         let told = broadcast(ranks, outcome.map(message).unwrap_or_default());
         match (heard(&told), own, unsaved) {
             (Ok(sum), ..) => Ok(sum),
-            (Err(_), Err(error), _) => Err(error),
-            (Err(_), _, Some(error)) => Err(error),
+            (Err(_), Err(error), _) | (Err(_), _, Some(error)) => Err(error),
             (Err(failure), ..) => Err(PodError::Elsewhere(failure)),
         }
     }

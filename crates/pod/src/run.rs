@@ -44,7 +44,7 @@ impl<'a> Run<'a> {
 
     /// Numbers that rank 0 finds for all: machines of different make round differently, and no two
     /// ranks may decide differently.
-    pub fn from_first(
+    pub fn agreed(
         &self,
         find: impl FnOnce() -> Result<Vec<f64>, PodError>,
     ) -> Result<Vec<f64>, PodError> {

@@ -98,9 +98,8 @@ pub fn main() -> ExitCode {
     let (rank, count) = (job.ranks().rank(), job.ranks().count());
     let who = if count > 1 { format!("rank {rank}: ") } else { String::new() };
     match dispatch(cli.command, job.ranks()) {
-        Ok(()) => job.end(0),
-        // The process that failed says why and ends them all.
-        Err(Error::Elsewhere(_)) => job.end(0),
+        // Where another process has failed, that one says why and ends them all.
+        Ok(()) | Err(Error::Elsewhere(_)) => job.end(0),
         Err(error) => job.end(report_failure(&who, &error)),
     }
 }

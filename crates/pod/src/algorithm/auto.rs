@@ -57,7 +57,7 @@ fn in_time(run: &Run<'_>, options: &Options) -> Result<Decomposition, PodError> 
         lift("snapshots", run, temporal)
     } else {
         let (_, m) = run.ensemble.shape();
-        lift("svd", run, bi_orthogonal(run, first, m as f64 * f64::EPSILON / (2.0 * TOLERANCE))?)
+        lift("svd", run, bi_orthogonal(run, &first, m as f64 * f64::EPSILON / (2.0 * TOLERANCE))?)
     };
     Ok(choice.noted(found?))
 }

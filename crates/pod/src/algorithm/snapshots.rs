@@ -62,7 +62,7 @@ pub(crate) struct Temporal {
 
 pub(super) fn eigenvectors(run: &Run<'_>, correlation: &Correlation) -> Result<Temporal, PodError> {
     let (n, m) = run.ensemble.shape();
-    let found = run.from_first(|| {
+    let found = run.agreed(|| {
         let matrix = &correlation.matrix * Scale(1.0 / m as f64);
         let (lambda, vectors) = dense::eigen_descending(matrix.as_ref())?;
         Ok(lambda.into_iter().chain(vectors.col_iter().flat_map(|v| v.iter().copied())).collect())

@@ -58,7 +58,7 @@ pub(crate) fn stream(
 
 pub(crate) fn decompose(run: &Run<'_>) -> Result<Decomposition, PodError> {
     let first = correlation(run, "correlation", None)?;
-    lift("svd", run, bi_orthogonal(run, first, WELL_CONDITIONED)?)
+    lift("svd", run, bi_orthogonal(run, &first, WELL_CONDITIONED)?)
 }
 
 /// Least eigenvalue of the Gram matrix of columns of norm one with which its factor is right to a few eps.
@@ -71,12 +71,12 @@ const WELL_CONDITIONED: f64 = 0.05;
 ///   correlation is enough; its singular values are then right to `M eps` over twice this
 pub(super) fn bi_orthogonal(
     run: &Run<'_>,
-    first: Correlation,
+    first: &Correlation,
     sufficient: f64,
 ) -> Result<Temporal, PodError> {
     let (n, m) = run.ensemble.shape();
-    let a = triangular(run, &first, sufficient)?;
-    let found = run.from_first(|| {
+    let a = triangular(run, first, sufficient)?;
+    let found = run.agreed(|| {
         let (sigma, vectors) = dense::right_svd(a.as_ref())?;
         let lambda = sigma.iter().map(|s| s * s / m as f64);
         Ok(lambda.chain(vectors.col_iter().flat_map(|v| v.iter().copied())).collect())
@@ -92,7 +92,7 @@ fn triangular(run: &Run<'_>, first: &Correlation, sufficient: f64) -> Result<Mat
     // Round-off of sums over many rows and eliminations over many columns adds up as noise does.
     let floor = 8.0 * f64::EPSILON * (m as f64).sqrt();
     let coarse = PivotedCholesky::new(first.matrix.as_ref(), floor);
-    let enough = run.from_first(|| {
+    let enough = run.agreed(|| {
         let all = coarse.resolved == m.min(n) && m <= n;
         Ok(vec![f64::from(u8::from(all && least_angle(&coarse, sufficient)? >= sufficient))])
     })?;

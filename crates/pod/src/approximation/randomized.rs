@@ -168,7 +168,7 @@ impl Image {
             let centred = run.ensemble.options.center;
             return Err(PodError::NoEnergy { snapshots: m, centred });
         }
-        let found = run.from_first(|| {
+        let found = run.agreed(|| {
             // Squares of squares: scaled, they stay within the range of numbers.
             let scaled = self.columns * Scale(1.0 / largest);
             let q = dense::orthonormal(scaled.as_ref());
@@ -217,7 +217,7 @@ fn singular_vectors(
     gram: MatRef<'_, f64>,
 ) -> Result<(Vec<f64>, Mat<f64>), PodError> {
     let width = gram.ncols();
-    let found = run.from_first(|| {
+    let found = run.agreed(|| {
         let cholesky = PivotedCholesky::new(gram, 8.0 * f64::EPSILON);
         let factor = in_original_order(cholesky.factor().as_ref(), &cholesky.order);
         let (sigma, vectors) = dense::right_svd(factor.as_ref())?;

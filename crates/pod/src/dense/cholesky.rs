@@ -42,7 +42,9 @@ impl PivotedCholesky {
         }
         let resolved = order.len();
         let mut is_resolved = vec![false; m];
-        order.iter().for_each(|&j| is_resolved[j] = true);
+        for &j in &order {
+            is_resolved[j] = true;
+        }
         order.extend((0..m).filter(|&j| !is_resolved[j]));
         let unit = Mat::from_fn(m, m, |i, k| match rows.get(i) {
             Some(row) if i < k => row[order[k]] / scale[i],
@@ -66,7 +68,9 @@ fn next_row(g: MatRef<'_, f64>, rows: &[Vec<f64>], pivot: usize, root: f64) -> V
         let by = before[pivot];
         row.iter_mut().zip(before).for_each(|(r, b)| *r -= by * b);
     }
-    row.iter_mut().for_each(|r| *r /= root);
+    for r in &mut row {
+        *r /= root;
+    }
     row[pivot] = root;
     row
 }

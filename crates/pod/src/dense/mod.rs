@@ -113,7 +113,7 @@ pub(crate) fn cholesky_upper(g: MatRef<'_, f64>) -> Option<Mat<f64>> {
             let left = g[(i, j)] - known;
             r[(i, j)] = if i < j { left / r[(i, i)] } else { left.sqrt() };
         }
-        if !(r[(j, j)] > 0.0) {
+        if r[(j, j)] <= 0.0 || r[(j, j)].is_nan() {
             return None;
         }
     }

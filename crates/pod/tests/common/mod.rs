@@ -51,7 +51,7 @@ pub fn grid(n: usize) -> Kronecker {
         let diagonal: Vec<f64> = (0..n).map(inner).collect();
         Tridiagonal::new(&diagonal, &vec![1.0; n - 1]).expect("a mass matrix is positive definite")
     };
-    let directions = if n % 2 == 0 { vec![line(n / 2), line(2)] } else { vec![line(n)] };
+    let directions = if n.is_multiple_of(2) { vec![line(n / 2), line(2)] } else { vec![line(n)] };
     Kronecker::new(directions, 1)
 }
 
