@@ -94,9 +94,4 @@ impl SnapshotSource for MemorySnapshots {
         copy(self.x.submatrix(rows.start, cols.start, rows.len(), cols.len()), out);
         Ok(())
     }
-
-    /// Long runs of each column: short ones are read at half the rate of memory.
-    fn read_size(&self) -> usize {
-        4 << 20
-    }
 }
