@@ -112,7 +112,7 @@ fn an_unfinished_decomposition_goes_on_with_what_it_was_begun_with_alone() {
     }
     let resume = ["--modes", "6", "--resume"];
     let weights = fs::read(desk.path("w.npy")).expect("weights");
-    write_vector(desk.path("w.npy"), &[2.0; 40_000]).expect("a file");
+    write_vector(desk.path("w.npy"), &vec![2.0; 40_000]).expect("a file");
     pod(&desk, &resume).refused(2, &[other]);
     desk.write("w.npy", &weights);
 
