@@ -62,10 +62,13 @@ fn on_ranks<T: Send>(count: usize, work: impl Fn(&dyn Ranks) -> T + Sync) -> Vec
 
 /// Modes in memory that several ranks write, as they would a file.
 #[derive(Default)]
-struct Shared(Mutex<(Option<Mat<f64>>, Option<Mat<f64>>)>);
+struct Shared(Mutex<Files>);
+
+/// The columns as they come, and the modes made of them.
+type Files = (Option<Mat<f64>>, Option<Mat<f64>>);
 
 impl Shared {
-    fn with<T>(&self, f: impl FnOnce(&mut (Option<Mat<f64>>, Option<Mat<f64>>)) -> T) -> T {
+    fn with<T>(&self, f: impl FnOnce(&mut Files) -> T) -> T {
         f(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
     }
 }
