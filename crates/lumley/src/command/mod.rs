@@ -98,8 +98,9 @@ pub fn main() -> ExitCode {
     let (rank, count) = (job.ranks().rank(), job.ranks().count());
     let who = if count > 1 { format!("rank {rank}: ") } else { String::new() };
     match dispatch(cli.command, job.ranks()) {
-        // Where another process has failed, that one says why and ends them all.
-        Ok(()) | Err(Error::Elsewhere(_)) => job.end(0),
+        Ok(()) => job.end(0),
+        // That process says why, and ends them all.
+        Err(Error::Elsewhere(failure)) => job.wait_for_end_by(failure.rank),
         Err(error) => job.end(report_failure(&who, &error)),
     }
 }

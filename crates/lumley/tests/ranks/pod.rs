@@ -41,7 +41,9 @@ fn refused(desk: &Path, count: usize, command: &str, words: &[&str]) {
     let (took, said) = (started.elapsed(), stderr(&output));
     assert!(took < Duration::from_secs(15), "{command} took {took:?}: {said}");
     assert_eq!(output.status.code(), Some(2), "{command}: {said}");
-    words.iter().for_each(|word| assert!(said.contains(word), "no {word:?} in: {said}"));
+    for word in words {
+        assert!(said.contains(word), "no {word:?} in: {said}");
+    }
     assert_eq!(said.matches("error:").count(), 1, "{said}");
 }
 
@@ -112,14 +114,15 @@ fn kill_at(desk: &Path, sign: &str) {
     let mut mpirun = job(desk, 4, &format!("{POD} --checkpoint 0 -o out"));
     let mut child = mpirun.spawn().expect("mpirun starts");
     let started = Instant::now();
+    let name = sign.display();
     while !sign.exists() {
-        assert!(started.elapsed() < Duration::from_secs(60), "no {sign:?} in a minute");
-        assert!(child.try_wait().expect("its state").is_none(), "it ended before {sign:?}");
+        assert!(started.elapsed() < Duration::from_secs(60), "no {name} in a minute");
+        assert!(child.try_wait().expect("its state").is_none(), "it ended before {name}");
         sleep(Duration::from_micros(200));
     }
     let kill = Command::new("kill").arg(child.id().to_string()).status();
     assert!(kill.expect("kill starts").success());
-    assert!(!child.wait().expect("it ends").success(), "killed at {sign:?}");
+    assert!(!child.wait().expect("it ends").success(), "killed at {name}");
 }
 
 /// Commands that cannot share their work say so, once.
