@@ -4,9 +4,8 @@ use super::{mpirun, stderr};
 use faer::Mat;
 use lumley::format::npy::{write_matrix, write_vector};
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
-use std::thread::sleep;
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
@@ -96,33 +95,29 @@ fn modes(desk: &Path, out: &str) -> Vec<u8> {
     fs::read(desk.join(out).join("pod.npz")).expect("modes")
 }
 
-/// A job that is ended from outside goes on where it was, also with another number of ranks.
+/// A job of which a rank is killed ends, and goes on where it was, also with another number of ranks.
 pub fn a_killed_job_resumes() {
     let desk = desk(200_003);
     good(&finished(desk.path(), 1, &format!("{POD} -o whole")));
-    for (count, sign) in [(4, "1-correlation-1-of-4"), (4, "2-refinement-3-of-4"), (2, "3-modes")] {
-        kill_at(desk.path(), &format!("work/{sign}.sum"));
+    for (count, entry) in [(4, "1-correlation-1-of-4"), (4, "2-refinement-3-of-4"), (2, "3-modes")]
+    {
+        kill_at(desk.path(), entry);
         good(&finished(desk.path(), count, &format!("{POD} -o out --resume")));
-        assert!(modes(desk.path(), "out") == modes(desk.path(), "whole"), "killed at {sign}");
+        assert!(modes(desk.path(), "out") == modes(desk.path(), "whole"), "killed at {entry}");
         fs::remove_dir_all(desk.path().join("out")).expect("removed");
     }
 }
 
-/// Ends a job of four ranks as soon as `sign` stands in its directory.
-fn kill_at(desk: &Path, sign: &str) {
-    let sign: PathBuf = desk.join("out.partial").join(sign);
-    let mut mpirun = job(desk, 4, &format!("{POD} --checkpoint 0 -o out"));
-    let mut child = mpirun.spawn().expect("mpirun starts");
-    let started = Instant::now();
-    let name = sign.display();
-    while !sign.exists() {
-        assert!(started.elapsed() < Duration::from_secs(60), "no {name} in a minute");
-        assert!(child.try_wait().expect("its state").is_none(), "it ended before {name}");
-        sleep(Duration::from_micros(200));
-    }
-    let kill = Command::new("kill").arg(child.id().to_string()).status();
-    assert!(kill.expect("kill starts").success());
-    assert!(!child.wait().expect("it ends").success(), "killed at {name}");
+/// A job of four ranks, of which one is killed as soon as the journal has this entry.
+fn kill_at(desk: &Path, entry: &str) {
+    // The shell's number, `$$`, is lumley's after exec.
+    let kill = format!("[ -e out.partial/work/{entry}.sum ] && kill -9 $$");
+    let watch = format!("(while kill -0 $$ 2>/dev/null; do {kill}; done) &");
+    let pod = format!("{POD} --checkpoint 0 -o out");
+    let output =
+        finished(desk, 4, &format!("[ $OMPI_COMM_WORLD_RANK = 1 ] && {{ {watch} }}; {pod}"));
+    assert!(!output.status.success(), "not killed at {entry}: {}", stderr(&output));
+    assert!(desk.join("out.partial").exists(), "killed at {entry}: {}", stderr(&output));
 }
 
 /// Commands that cannot share their work say so, once.
