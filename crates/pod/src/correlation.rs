@@ -1,13 +1,11 @@
 //! The correlation of the snapshots in time: the work that grows with n M².
 
-use crate::contiguous::{columns, columns_mut};
 use crate::inner_product::support;
 use crate::kernel::{add_gram, solve_right};
 use crate::partial::Partial;
-use crate::partition::Partition;
 use crate::run::Run;
 use crate::{InnerProduct, PodError};
-use faer::{Mat, MatMut, MatRef};
+use faer::Mat;
 use std::ops::Range;
 
 /// `Zᵀ Z` with `Z = F X`, in full, and the energy of the mean that was subtracted.
@@ -24,15 +22,6 @@ pub(crate) struct Preconditioner {
     pub unit: Mat<f64>,
 }
 
-impl Preconditioner {
-    fn apply(&self, z: MatRef<'_, f64>, mut y: MatMut<'_, f64>) {
-        for (&from, to) in self.order.iter().zip(columns_mut(y.as_mut())) {
-            columns(z.subcols(from, 1)).for_each(|from| to.copy_from_slice(from));
-        }
-        solve_right(y, self.unit.as_ref());
-    }
-}
-
 /// One pass over the snapshots; with a preconditioner, `Yᵀ Y` of the columns that it makes.
 pub(crate) fn correlation(
     run: &Run<'_>,
@@ -40,27 +29,19 @@ pub(crate) fn correlation(
     preconditioner: Option<&Preconditioner>,
 ) -> Result<Correlation, PodError> {
     let (ensemble, (_, m)) = (run.ensemble, run.ensemble.shape());
+    let order = preconditioner.map_or(&ensemble.every, |preconditioner| &preconditioner.order);
     let part = |rows: Range<usize>| {
         let mut sum = Partial::zeros(m * m + 1, 0);
-        let block = ensemble.partition.block();
-        let mut y = Mat::zeros(if preconditioner.is_some() { block } else { 0 }, m);
         ensemble.for_tiles(rows.clone(), &mut |mut tile| {
             if let Some(mean) = &tile.mean {
                 sum.sums[m * m] += energy(ensemble.product, &tile.rows, &mean.field)?;
             }
-            ensemble.product.factor(tile.rows.clone(), tile.x.as_mut())?;
-            for rows in Partition::pieces(0..tile.rows.len(), block) {
-                let z = tile.x.as_ref().subrows(rows.start, rows.len());
-                match preconditioner {
-                    None => add_gram(sum.matrix_mut(m, m), z),
-                    Some(preconditioner) => {
-                        let mut y = y.subrows_mut(0, rows.len());
-                        preconditioner.apply(z, y.as_mut());
-                        add_gram(sum.matrix_mut(m, m), y.as_ref());
-                    }
+            tile.for_blocks(ensemble, order, &mut |_, mut z| {
+                if let Some(preconditioner) = preconditioner {
+                    solve_right(z.as_mut(), preconditioner.unit.as_ref());
                 }
-            }
-            Ok(())
+                add_gram(sum.matrix_mut(m, m), z.as_ref());
+            })
         })?;
         // An entry that is not finite makes the square of its column so: no need to look at each.
         let finite = (0..m).all(|j| sum.sums[j * m + j].is_finite());

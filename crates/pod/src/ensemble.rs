@@ -1,17 +1,16 @@
 use crate::approximation::Previous;
 use crate::contiguous::columns_mut;
-use crate::inner_product::support;
+use crate::inner_product::reach_of;
 use crate::mean::Mean;
 use crate::partition::Partition;
 use crate::plan::{Demand, Plan};
 use crate::reduction::Reduction;
 use crate::spectrum::Spectrum;
-use crate::{
-    Execution, InnerProduct, Options, PodError, Reach, SnapshotSource, Truncation, time_weights,
-};
+use crate::tile::Workspace;
+use crate::{Execution, InnerProduct, Options, PodError, SnapshotSource, Truncation, time_weights};
 use faer::{Mat, MatMut};
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 
 /// The snapshots as the algorithms see them: checked, centred, weighted in time, read by tiles of rows.
 ///
@@ -30,17 +29,10 @@ pub(crate) struct Ensemble<'a> {
     /// What stands in the columns before those of the snapshots, if there is something.
     pub previous: Option<&'a Previous<'a>>,
     pub partition: Partition,
-    plan: Plan,
-    buffers: Mutex<Vec<Mat<f64>>>,
-}
-
-/// Some rows of the snapshots.
-pub(crate) struct Tile<'t> {
-    pub rows: Range<usize>,
-    /// These rows and those after them that the inner product reaches, centred and weighted.
-    pub x: MatMut<'t, f64>,
-    /// Their mean, where it was subtracted.
-    pub mean: Option<Mean>,
+    pub plan: Plan,
+    pub workspaces: Mutex<Vec<Workspace>>,
+    /// The number of each column.
+    pub every: Vec<usize>,
 }
 
 impl<'a> Ensemble<'a> {
@@ -68,7 +60,8 @@ impl<'a> Ensemble<'a> {
             None => vec![1.0; m],
         };
         let (partition, plan) = planned(source, product, options, [m, width])?;
-        let (amplified, previous, buffers) = (0.0, None, Mutex::default());
+        let (amplified, previous, workspaces) = (0.0, None, Mutex::default());
+        let every = (0..m).collect();
         Ok(Self {
             source,
             product,
@@ -79,7 +72,8 @@ impl<'a> Ensemble<'a> {
             previous,
             partition,
             plan,
-            buffers,
+            workspaces,
+            every,
         })
     }
 
@@ -90,7 +84,8 @@ impl<'a> Ensemble<'a> {
         scale.extend(self.scale.iter().map(|s| s * share));
         let Self { source, product, options, amplified, .. } = *self;
         let (partition, plan) = planned(source, product, options, [scale.len(); 2])?;
-        let (time_weights, buffers) = (self.time_weights.clone(), Mutex::default());
+        let (time_weights, workspaces) = (self.time_weights.clone(), Mutex::default());
+        let every = (0..scale.len()).collect();
         let previous = Some(previous);
         Ok(Self {
             source,
@@ -102,7 +97,8 @@ impl<'a> Ensemble<'a> {
             previous,
             partition,
             plan,
-            buffers,
+            workspaces,
+            every,
         })
     }
 
@@ -115,44 +111,6 @@ impl<'a> Ensemble<'a> {
     pub fn reduction<'e>(&self, execution: Execution<'e>) -> Reduction<'e> {
         let (partition, par) = (self.partition, self.options.par);
         Reduction { partition, execution, par, group: self.plan.group }
-    }
-
-    /// Reads `rows` tile by tile.
-    pub fn for_tiles(
-        &self,
-        rows: Range<usize>,
-        visit: &mut dyn FnMut(Tile<'_>) -> Result<(), PodError>,
-    ) -> Result<(), PodError> {
-        let mut buffer = self.take_buffer();
-        let visited = Partition::pieces(rows, self.plan.tile).try_for_each(|rows| {
-            let support = support(self.product, &rows);
-            if buffer.nrows() < support.len() {
-                buffer = Mat::zeros(support.len(), self.scale.len());
-            }
-            let mut x = buffer.subrows_mut(0, support.len());
-            let mean = self.read(support, x.as_mut())?;
-            visit(Tile { rows, x, mean })
-        });
-        self.buffers.lock().unwrap_or_else(PoisonError::into_inner).push(buffer);
-        visited
-    }
-
-    fn take_buffer(&self) -> Mat<f64> {
-        let kept = self.buffers.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        kept.unwrap_or_else(Mat::new)
-    }
-
-    /// Reads rows of all snapshots, centred and weighted.
-    fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> Result<Option<Mean>, PodError> {
-        let (columns, m) = (self.scale.len(), self.time_weights.len());
-        let mut x = out.as_mut().subcols_mut(columns - m, m);
-        self.source.block(rows.clone(), 0..m, x.as_mut())?;
-        let mean = self.options.center.then(|| Mean::new(x.as_ref(), &self.time_weights));
-        self.prepare(mean.as_ref(), columns - m..columns, x);
-        match self.previous {
-            None => Ok(mean),
-            Some(previous) => Ok(previous.read(rows, mean, out.subcols_mut(0, columns - m))?),
-        }
     }
 
     /// Centres and weights columns `cols` of some rows, whose mean this is.
@@ -224,10 +182,7 @@ fn planned(
 ) -> Result<(Partition, Plan), PodError> {
     let [snapshots, width] = columns;
     let partition = Partition::new(source.dim(), snapshots);
-    let reach = match product.reach() {
-        Reach::Rows(after) => after,
-        Reach::All => 0, // only whole columns are read then, not tiles
-    };
+    let reach = reach_of(product);
     let (threads, read) = (options.par.degree().max(1), source.read_size());
     let demand = Demand { partition, snapshots, sum: snapshots * width, threads, reach, read };
     Ok((partition, Plan::new(&demand, options.memory_limit)?))

@@ -48,12 +48,14 @@ mod options;
 mod partial;
 mod partition;
 mod plan;
+mod random;
 mod ranks;
 mod reduction;
 mod run;
 mod selection;
 mod snapshots;
 mod spectrum;
+mod tile;
 pub mod time_weights;
 
 pub use agreement::{Failure, all_or_none, from_first};

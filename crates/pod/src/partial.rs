@@ -1,4 +1,11 @@
+use crate::contiguous::columns;
 use faer::{MatMut, MatRef};
+
+/// An entry this many times another is larger than it, and not by round-off.
+const CLEARLY: f64 = 1.0 + 1e-6;
+
+/// Rows among which an extreme is sought at once; blocks are multiples of it.
+const RUN: usize = 512;
 
 /// What a set of rows contributes to a pass: sums over the rows, and an entry of largest magnitude
 /// of each column.
@@ -18,6 +25,13 @@ impl Partial {
         self.sums.iter_mut().zip(&below.sums).for_each(|(a, b)| *a += b);
         self.extremes.iter_mut().zip(&below.extremes).for_each(|(a, b)| *a = extreme(*a, *b));
         self
+    }
+
+    /// Some rows of the columns whose extremes are sought.
+    pub fn add_extremes(&mut self, rows: MatRef<'_, f64>) {
+        for (extreme, column) in self.extremes.iter_mut().zip(columns(rows)) {
+            *extreme = extreme_of(*extreme, column);
+        }
     }
 
     /// The first of the sums as a matrix.
@@ -47,20 +61,31 @@ impl Partial {
 /// Of two entries the one of larger magnitude; the first where they differ by less than 1e-6, so that
 /// round-off does not decide between equal entries of opposite sign.
 pub(crate) fn extreme(first: f64, second: f64) -> f64 {
-    if second.abs() > first.abs() * (1.0 + 1e-6) { second } else { first }
+    if second.abs() > first.abs() * CLEARLY { second } else { first }
 }
 
-/// The extreme of an entry and those of a column. Most runs of a column have none that counts, which is
-/// seen without looking at one entry after the other.
+/// The extreme of an entry and those of a column: of entries that differ by less than 1e-6 the first in
+/// each run of rows, which are the same wherever a column is cut between runs.
 pub(crate) fn extreme_of(first: f64, column: &[f64]) -> f64 {
-    column.chunks(64).fold(first, |found, run| {
-        let largest = run.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+    column.chunks(RUN).fold(first, |found, run| {
+        let largest = largest_of(run);
         if extreme(found, largest) == found {
-            found
-        } else {
-            run.iter().fold(found, |a, b| extreme(a, *b))
+            return found;
         }
+        run.iter().copied().find(|x| x.abs() * CLEARLY >= largest).unwrap_or(found)
     })
+}
+
+/// The largest magnitude, by eight maxima that do not wait for each other.
+fn largest_of(run: &[f64]) -> f64 {
+    let (eights, rest) = run.as_chunks::<8>();
+    let mut largest = [0.0_f64; 8];
+    for eight in eights {
+        for (largest, x) in largest.iter_mut().zip(eight) {
+            *largest = if x.abs() > *largest { x.abs() } else { *largest };
+        }
+    }
+    largest.iter().chain(rest).fold(0.0, |a, b| a.max(b.abs()))
 }
 
 /// Takes an integer from the front of `bytes`.

@@ -42,6 +42,11 @@ impl Partition {
         self.block
     }
 
+    /// Rows that are weighted at a time: whole blocks, and enough for what is read after them to be little.
+    pub fn piece(self, reach: usize) -> usize {
+        (8 * reach).next_multiple_of(self.block).max(self.block)
+    }
+
     /// `rows` in pieces of at most `size`.
     pub fn pieces(rows: Range<usize>, size: usize) -> impl Iterator<Item = Range<usize>> {
         rows.clone().step_by(size).map(move |first| first..(first + size).min(rows.end))

@@ -29,7 +29,7 @@ impl Plan {
     pub fn new(demand: &Demand, limit: u64) -> Result<Self, PodError> {
         let block = demand.partition.block();
         let row = 8 * demand.snapshots;
-        let wanted = (demand.read / row).max(8 * demand.reach).max(block);
+        let wanted = (demand.read / row).max(demand.partition.piece(demand.reach));
         let tiles = std::iter::successors(Some(wanted.next_multiple_of(block)), |tile| {
             (*tile > block).then(|| (tile / 2).next_multiple_of(block))
         });
@@ -54,7 +54,8 @@ impl Plan {
         const DENSE: usize = 6;
         let Demand { partition, snapshots, sum, threads, reach, .. } = *demand;
         let sum = 8 * sum as u128;
-        let tile = 8 * (self.tile + reach + partition.block()) as u128 * snapshots as u128;
+        let rows = (self.tile + reach) + (partition.piece(reach) + reach);
+        let tile = 8 * rows as u128 * snapshots as u128;
         let depth = |leaves: usize| u128::from(leaves.max(1).ilog2()) + 2;
         let of_thread = tile + depth(self.group / threads) * sum;
         let tree = depth(partition.leaves().div_ceil(self.group));

@@ -1,5 +1,5 @@
 use crate::contiguous::copy;
-use faer::{Mat, MatMut};
+use faer::{Mat, MatMut, MatRef};
 use std::io;
 use std::ops::Range;
 
@@ -40,6 +40,10 @@ pub trait SnapshotSource: Sync {
     /// The failure of the medium, or damaged data, named.
     fn block(&self, rows: Range<usize>, cols: Range<usize>, out: MatMut<'_, f64>)
     -> io::Result<()>;
+    /// All of X, where it lies in memory with contiguous columns: it is then read there, not copied.
+    fn view(&self) -> Option<MatRef<'_, f64>> {
+        None
+    }
     /// Bytes that one block should have for reading it to be cheap: none where any size is.
     fn read_size(&self) -> usize {
         0
@@ -71,7 +75,7 @@ impl MemorySnapshots {
     }
 
     /// The snapshot matrix, n x M.
-    pub fn matrix(&self) -> faer::MatRef<'_, f64> {
+    pub fn matrix(&self) -> MatRef<'_, f64> {
         self.x.as_ref()
     }
 }
@@ -93,5 +97,9 @@ impl SnapshotSource for MemorySnapshots {
     ) -> io::Result<()> {
         copy(self.x.submatrix(rows.start, cols.start, rows.len(), cols.len()), out);
         Ok(())
+    }
+
+    fn view(&self) -> Option<MatRef<'_, f64>> {
+        Some(self.x.as_ref())
     }
 }

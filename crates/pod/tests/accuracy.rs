@@ -50,7 +50,9 @@ fn svd_resolves_every_spectrum_to_round_off_of_the_first_value() {
             assert!(basis.size() >= resolved, "{name}: {} modes of {resolved}", basis.size());
             for (k, (got, known)) in basis.singular_values.iter().zip(&sigma).enumerate() {
                 let error = (got - known).abs();
-                assert!(error < 2e-15, "{name}: sigma_{k} = {known:e} is off by {error:e}");
+                // The snapshots themselves, products of matrices, have these to about 7 eps.
+                let bound = 16.0 * f64::EPSILON;
+                assert!(error < bound, "{name}: sigma_{k} = {known:e} is off by {error:e}");
             }
             let defect = orthonormality_defect(&basis, &*w);
             assert!(defect < 1e-12, "{name}: {defect:e}");

@@ -103,13 +103,12 @@ impl SnapshotSource for Counting {
     }
 }
 
-/// Two passes in blocks, far from the whole, also for the exact route where columns are far from
-/// dependent; less their mean they are not, and it takes another.
+/// Two passes in blocks, far from the whole, and a third for the exact route.
 #[test]
-fn snapshots_are_read_twice_by_blocks() {
+fn snapshots_are_read_by_blocks() {
     let n = 60_000;
-    for (run, less_mean) in [(method_of_snapshots as Run, 2), (svd, 3)] {
-        for (center, passes) in [(false, 2), (true, less_mean)] {
+    for (run, passes) in [(method_of_snapshots as Run, 2), (svd, 3)] {
+        for center in [false, true] {
             let x = Counting {
                 x: MemorySnapshots::new(random_matrix(n, 10, 3), times(10)),
                 entries: AtomicUsize::new(0),
@@ -120,6 +119,18 @@ fn snapshots_are_read_twice_by_blocks() {
             assert_eq!(x.entries.into_inner(), passes * n * 10);
             assert!(x.largest.into_inner() <= n * 10 / 7);
         }
+    }
+}
+
+/// Of few rows no sketch is taken, and the exact route is spared a pass where the columns are far from
+/// dependent; less their mean they are not.
+#[test]
+fn a_sketch_is_taken_of_many_rows() {
+    for (n, center, passes) in [(300, false, 2), (300, true, 3), (400, false, 3), (400, true, 3)] {
+        let x = MemorySnapshots::new(random_matrix(n, 10, 3), times(10));
+        let options = Options { center, ..Options::default() };
+        let basis = svd(&x, &Identity::new(n), &options).expect("a decomposition");
+        assert_eq!(basis.passes, passes, "{n} rows, centred: {center}");
     }
 }
 

@@ -1,7 +1,7 @@
 use super::direct;
 use super::lift::lift;
 use super::snapshots::eigenvectors;
-use super::svd::bi_orthogonal;
+use super::svd::{bi_orthogonal, triangular};
 use crate::correlation::correlation;
 use crate::run::Run;
 use crate::spectrum::Spectrum;
@@ -57,7 +57,8 @@ fn in_time(run: &Run<'_>, options: &Options) -> Result<Decomposition, PodError> 
         lift("snapshots", run, temporal)
     } else {
         let (_, m) = run.ensemble.shape();
-        lift("svd", run, bi_orthogonal(run, &first, m as f64 * f64::EPSILON / (2.0 * TOLERANCE))?)
+        let a = triangular(run, &first, m as f64 * f64::EPSILON / (2.0 * TOLERANCE))?;
+        lift("svd", run, bi_orthogonal(run, a.as_ref(), first.steady)?)
     };
     Ok(choice.noted(found?))
 }

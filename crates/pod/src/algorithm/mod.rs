@@ -6,6 +6,7 @@ pub(crate) mod finish;
 pub(crate) mod lift;
 pub(crate) mod orthonormal;
 pub(crate) mod raw;
+mod sketched;
 pub(crate) mod snapshots;
 pub(crate) mod svd;
 pub(crate) mod whole;

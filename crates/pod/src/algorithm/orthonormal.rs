@@ -1,12 +1,13 @@
 //! From stored columns to modes: orthonormal, signed, published.
 
-use super::raw::{Columns, add_columns};
+use super::raw::Columns;
+use crate::PodError;
 use crate::dense::{self, product};
-use crate::inner_product::support;
+use crate::inner_product::{reach_of, support};
+use crate::kernel::add_gram;
 use crate::partial::Partial;
 use crate::partition::Partition;
 use crate::run::Run;
-use crate::{PodError, Reach};
 use faer::{Mat, MatRef};
 use std::ops::Range;
 
@@ -72,10 +73,7 @@ fn widths(steps: &[MatRef<'_, f64>]) -> [usize; 2] {
 /// What is known of the stored columns after these steps.
 pub(crate) fn changed(run: &Run<'_>, steps: &[MatRef<'_, f64>]) -> Result<Columns, PodError> {
     let (ensemble, modes, [stored, size]) = (run.ensemble, run.modes, widths(steps));
-    let Reach::Rows(reach) = ensemble.product.reach() else {
-        unreachable!("products of whole columns are taken before")
-    };
-    let piece = ensemble.partition.block().max(8 * reach);
+    let piece = ensemble.partition.piece(reach_of(ensemble.product));
     let part = |rows: Range<usize>| {
         let mut sum = Partial::zeros(size * size, size);
         for rows in Partition::pieces(rows, piece) {
@@ -83,9 +81,9 @@ pub(crate) fn changed(run: &Run<'_>, steps: &[MatRef<'_, f64>]) -> Result<Column
             let mut columns = Mat::zeros(support.len(), stored);
             modes.read(support, columns.as_mut())?;
             let mut columns = multiplied(columns, steps);
-            let own = columns.subrows(0, rows.len()).to_owned();
+            sum.add_extremes(columns.subrows(0, rows.len()));
             ensemble.product.factor(rows.clone(), columns.as_mut())?;
-            add_columns(&mut sum, own.as_ref(), columns.subrows(0, rows.len()));
+            add_gram(sum.matrix_mut(size, size), columns.subrows(0, rows.len()));
         }
         Ok(sum)
     };

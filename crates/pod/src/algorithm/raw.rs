@@ -1,12 +1,12 @@
 //! Columns that are nearly modes, as they come out of the snapshots.
 
-use crate::contiguous;
 use crate::correlation::mirror;
-use crate::ensemble::{Ensemble, Tile};
+use crate::ensemble::Ensemble;
 use crate::kernel::add_gram;
-use crate::partial::{Partial, extreme_of};
+use crate::partial::Partial;
 use crate::partition::Partition;
 use crate::run::Run;
+use crate::tile::Tile;
 use crate::{ModeStore, PodError};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
@@ -62,23 +62,12 @@ pub(crate) fn raw_modes(run: &Run<'_>, lift: &Lift<'_>) -> Result<RawModes, PodE
 }
 
 impl Columns {
-    /// * `sum`: of [`add_columns`]
+    /// * `sum`: of the entries and the products of so many columns
     pub fn of(sum: &Partial, count: usize) -> Self {
         let mut gram = sum.matrix(count, count).to_owned();
         mirror(&mut gram);
         Self { gram, extremes: sum.extremes.clone() }
     }
-}
-
-/// Adds what is known of some rows of columns.
-///
-/// * `weighted`: the same rows of F times the columns
-pub(crate) fn add_columns(sum: &mut Partial, columns: MatRef<'_, f64>, weighted: MatRef<'_, f64>) {
-    for (of_column, column) in sum.extremes.iter_mut().zip(contiguous::columns(columns)) {
-        *of_column = extreme_of(*of_column, column);
-    }
-    let count = columns.ncols();
-    add_gram(sum.matrix_mut(count, count), weighted);
 }
 
 impl Lift<'_> {
@@ -93,24 +82,24 @@ impl Lift<'_> {
         let means = usize::from(tile.mean.is_some());
         let mut columns = Mat::zeros(tile.x.nrows(), kept + means);
         let raw = columns.subcols_mut(0, kept);
-        matmul(raw, Accum::Replace, tile.x.as_ref(), self.to_modes, 1.0, Par::Seq);
+        matmul(raw, Accum::Replace, tile.x, self.to_modes, 1.0, Par::Seq);
         if let Some(mean) = &tile.mean {
             columns.col_mut(kept).iter_mut().zip(&mean.field).for_each(|(to, u)| *to = *u);
         }
         modes.write(tile.rows.clone(), columns.subrows(0, count))?;
-        let raw = columns.get(..count, ..kept).to_owned();
+        sum.add_extremes(columns.get(..count, ..kept));
         ensemble.product.factor(tile.rows.clone(), columns.as_mut())?;
-        if self.measured {
-            ensemble.product.factor(tile.rows.clone(), tile.x.as_mut())?;
-        }
         // By blocks: the tile depends on the memory that may be taken, the sums must not.
         for Range { start, end } in Partition::pieces(0..count, ensemble.partition.block()) {
             let weighted = columns.subrows(start, end - start);
-            add_columns(sum, raw.subrows(start, end - start), weighted.subcols(0, kept));
-            if self.measured {
-                let z = tile.x.as_mut().subrows_mut(start, end - start);
-                self.add_residuals(&mut sum.sums[kept * kept..], &ensemble.scale, weighted, z);
-            }
+            add_gram(sum.matrix_mut(kept, kept), weighted.subcols(0, kept));
+        }
+        if self.measured {
+            let sums = &mut sum.sums[kept * kept..];
+            tile.for_blocks(ensemble, &ensemble.every, &mut |rows, z| {
+                let weighted = columns.subrows(rows.start, rows.len());
+                self.add_residuals(sums, &ensemble.scale, weighted, z);
+            })?;
         }
         Ok(())
     }

@@ -1,7 +1,9 @@
 use super::lift::lift;
+use super::sketched::{ROUND_OFF, sketched, squares_floor};
 use super::snapshots::Temporal;
 use crate::correlation::{Correlation, Preconditioner, correlation};
-use crate::dense::{self, PivotedCholesky, product};
+use crate::dense::{self, PivotedCholesky, are_independent, product};
+use crate::kernel::Sketch;
 use crate::run::Run;
 use crate::{
     Decomposition, Execution, InnerProduct, ModeStore, Options, PodError, ReducedBasis,
@@ -15,16 +17,17 @@ use faer::{Mat, MatRef};
 /// F X = Q A,   A = U Sigma Vᵀ,   Phi_n = X v_n / sigma_n,   lambda_n = sigma_n² / M
 /// ```
 ///
-/// A comes from two Gram matrices. The pivoted Cholesky factor of the first tells the columns apart
-/// as far as squares can (to 1e-8 of each), and makes of them nearly orthogonal columns
-/// `Y = F X P U⁻¹`, formed block by block; what the first could not tell apart is small in Y, hence
-/// known to another 1e-8 of that from the second, `Yᵀ Y = Rᵀ R`, and `A = R U Pᵀ`. Where all columns are far from
-/// dependent the first is enough. Errors are relative to each column of X: singular values are right to
+/// A first pass takes few random combinations of the rows, a sketch S of F X. A pivoted factor of S makes
+/// nearly orthogonal columns `Y = F X P U⁻¹`, formed block by block, whose Gram matrix loses nothing:
+/// `Yᵀ Y = Rᵀ R` and `A = R U Pᵀ`. Where there are less than about 8 M unknowns, or the sketch turns out to
+/// miss a direction, the Gram matrix of F X takes its place: its factor tells the columns apart as far as
+/// squares can, to 1e-8 of each, and what it could not tell apart is small in Y, hence known to another
+/// 1e-8 of that. Errors are relative to each column of X: singular values are right to
 /// a few `eps sigma_1` on any spectrum, and to `eps` of themselves where it is the columns that
 /// are graded, as in a decaying transient. Where the inner product couples all rows, entries that
 /// are right to `eps` of themselves leave an error of `4 eps sqrt(M sum_i W_ii <u_i²>)` instead.
 ///
-/// Cost 3 n M² flops and three passes over the snapshots; where the inner product couples all
+/// Cost 2 n M² flops, n M² more without the sketch, and three passes over the snapshots; where the inner product couples all
 /// rows, one weighted copy of the snapshots is held in memory.
 ///
 /// # Errors
@@ -53,72 +56,90 @@ pub(crate) fn stream(
     execution: Execution<'_>,
     modes: &dyn ModeStore,
 ) -> Result<Decomposition, PodError> {
-    super::with_rows(x, w, options, execution, modes, &decompose)
+    let (n, m) = (x.dim(), x.times().len());
+    let (width, algorithm): (_, fn(&Run<'_>) -> _) =
+        if sketch_pays([n, m]) { (Sketch::new(m).rows(), by_sketch) } else { (m, by_correlation) };
+    super::with_sums(x, w, options, execution, modes, width, &algorithm)
 }
 
-pub(crate) fn decompose(run: &Run<'_>) -> Result<Decomposition, PodError> {
+/// A sketch costs as much as a correlation of so many rows; for thousands of snapshots it would be
+/// longer than the leaves whose sums it is.
+fn sketch_pays([n, m]: [usize; 2]) -> bool {
+    let rows = Sketch::new(m).rows();
+    4 * rows <= n && rows <= 4096
+}
+
+fn by_sketch(run: &Run<'_>) -> Result<Decomposition, PodError> {
+    let Some(start) = sketched(run)? else { return by_correlation(run) };
+    let second = correlation(run, "refinement", Some(&start.preconditioner))?;
+    let sound = || start.is_sound(second.matrix.as_ref());
+    if run.agreed(|| Ok(vec![f64::from(u8::from(sound()))]))? != [1.0] {
+        return by_correlation(run);
+    }
+    let a = refined(&second, &start.preconditioner);
+    lift("svd", run, bi_orthogonal(run, a.as_ref(), second.steady)?)
+}
+
+/// The same without a sketch, for any number of rows.
+pub(crate) fn by_correlation(run: &Run<'_>) -> Result<Decomposition, PodError> {
     let first = correlation(run, "correlation", None)?;
-    lift("svd", run, bi_orthogonal(run, &first, WELL_CONDITIONED)?)
+    let a = triangular(run, &first, ENOUGH)?;
+    lift("svd", run, bi_orthogonal(run, a.as_ref(), first.steady)?)
 }
 
 /// Least eigenvalue of the Gram matrix of columns of norm one with which its factor is right to a few eps.
-const WELL_CONDITIONED: f64 = 0.05;
+pub(super) const ENOUGH: f64 = 0.05;
 
-/// Singular values and right singular vectors, from the correlation and as many further passes as it
-/// takes.
+/// Singular values and right singular vectors of F X, from A with `Aᵀ A = Xᵀ W X`.
 ///
-/// * `sufficient`: least eigenvalue of the Gram matrix of columns of norm one with which the first
-///   correlation is enough; its singular values are then right to `M eps` over twice this
+/// * `steady`: energy of the mean that was subtracted
 pub(super) fn bi_orthogonal(
     run: &Run<'_>,
-    first: &Correlation,
-    sufficient: f64,
+    a: MatRef<'_, f64>,
+    steady: f64,
 ) -> Result<Temporal, PodError> {
     let (n, m) = run.ensemble.shape();
-    let a = triangular(run, first, sufficient)?;
     let found = run.agreed(|| {
-        let (sigma, vectors) = dense::right_svd(a.as_ref())?;
+        let (sigma, vectors) = dense::right_svd(a)?;
         let lambda = sigma.iter().map(|s| s * s / m as f64);
         Ok(lambda.chain(vectors.col_iter().flat_map(|v| v.iter().copied())).collect())
     })?;
     let (lambda, vectors) = found.split_at(m);
-    let spectrum = run.ensemble.spectrum(lambda[..m.min(n)].to_vec(), first.steady, None)?;
+    let spectrum = run.ensemble.spectrum(lambda[..m.min(n)].to_vec(), steady, None)?;
     Ok(Temporal { spectrum, vectors: MatRef::from_column_major_slice(vectors, m, m).to_owned() })
 }
 
-/// A with `Aᵀ A = Xᵀ W X`, not squared.
-fn triangular(run: &Run<'_>, first: &Correlation, sufficient: f64) -> Result<Mat<f64>, PodError> {
+/// A from the correlation and, where that is not enough, one further pass.
+///
+/// * `sufficient`: least eigenvalue of the Gram matrix of columns of norm one with which the first
+///   correlation is enough; its singular values are then right to `M eps` over twice this
+pub(super) fn triangular(
+    run: &Run<'_>,
+    first: &Correlation,
+    sufficient: f64,
+) -> Result<Mat<f64>, PodError> {
     let (n, m) = run.ensemble.shape();
-    // Round-off of sums over many rows and eliminations over many columns adds up as noise does.
-    let floor = 8.0 * f64::EPSILON * (m as f64).sqrt();
-    let coarse = PivotedCholesky::new(first.matrix.as_ref(), floor);
+    let coarse = PivotedCholesky::new(first.matrix.as_ref(), squares_floor(m));
     let enough = run.agreed(|| {
         let all = coarse.resolved == m.min(n) && m <= n;
-        Ok(vec![f64::from(u8::from(all && least_angle(&coarse, sufficient)? >= sufficient))])
+        let enough = all && are_independent(first.matrix.as_ref(), sufficient);
+        Ok(vec![f64::from(u8::from(enough))])
     })?;
     if enough == [1.0] {
         return Ok(in_original_order(coarse.factor().as_ref(), &coarse.order));
     }
     let preconditioner = Preconditioner { order: coarse.order, unit: coarse.unit };
     let second = correlation(run, "refinement", Some(&preconditioner))?;
-    let fine = PivotedCholesky::new(second.matrix.as_ref(), 4.0 * f64::EPSILON);
-    let unit = Mat::from_fn(m, m, |i, j| preconditioner.unit[(fine.order[i], j)]);
-    let a = product(fine.factor().as_ref(), unit.as_ref());
-    Ok(in_original_order(a.as_ref(), &preconditioner.order))
+    Ok(refined(&second, &preconditioner))
 }
 
-/// Least eigenvalue of the Gram matrix of the columns scaled to norm one; zero where a pivot already
-/// tells that it is less than `sufficient`.
-fn least_angle(cholesky: &PivotedCholesky, sufficient: f64) -> Result<f64, PodError> {
-    let factor = cholesky.factor();
-    let norms: Vec<f64> = factor.col_iter().map(|column| column.norm_l2()).collect();
-    if cholesky.scale.iter().zip(&norms).any(|(d, norm)| d * d < sufficient * norm * norm) {
-        return Ok(0.0);
-    }
-    let unit = Mat::from_fn(factor.nrows(), factor.ncols(), |i, j| factor[(i, j)] / norms[j]);
-    let (eigenvalues, _) =
-        dense::eigen_descending(product(unit.transpose(), unit.as_ref()).as_ref())?;
-    Ok(eigenvalues.last().copied().unwrap_or(0.0))
+/// A from the Gram matrix of the columns that a preconditioner made.
+fn refined(second: &Correlation, preconditioner: &Preconditioner) -> Mat<f64> {
+    let (fine, m) =
+        (PivotedCholesky::new(second.matrix.as_ref(), ROUND_OFF), second.matrix.ncols());
+    let unit = Mat::from_fn(m, m, |i, j| preconditioner.unit[(fine.order[i], j)]);
+    let a = product(fine.factor().as_ref(), unit.as_ref());
+    in_original_order(a.as_ref(), &preconditioner.order)
 }
 
 /// The columns `a P` where `order` tells P.

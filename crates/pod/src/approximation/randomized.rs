@@ -5,7 +5,7 @@ use crate::algorithm::svd::in_original_order;
 use crate::algorithm::{in_memory, with_sums};
 use crate::dense::{self, PivotedCholesky, product};
 use crate::partial::Partial;
-use crate::partition::Partition;
+use crate::random::random_bits;
 use crate::run::Run;
 use crate::{
     Decomposition, Execution, InnerProduct, ModeStore, Options, PodError, ReducedBasis,
@@ -106,14 +106,12 @@ fn dominant(run: &Run<'_>) -> Result<Mat<f64>, PodError> {
     }
 }
 
-/// Numbers in (-1, 1), always the same (SplitMix64: Steele, Lea and Flood, 2014).
+/// Numbers in (-1, 1), always the same.
 fn random_columns(rows: usize, columns: usize) -> Mat<f64> {
-    let mut state = 0_u64;
+    let mut k = 0;
     Mat::from_fn(rows, columns, |_, _| {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        k += 1;
+        (random_bits(k) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     })
 }
 
@@ -132,16 +130,13 @@ impl Image {
             let mut sum = Partial::zeros(m * width + 1, 0);
             let mut y = Mat::zeros(block, width);
             ensemble.for_tiles(rows.clone(), &mut |mut tile| {
-                ensemble.product.factor(tile.rows.clone(), tile.x.as_mut())?;
-                for rows in Partition::pieces(0..tile.rows.len(), block) {
-                    let z = tile.x.as_ref().subrows(rows.start, rows.len());
-                    let mut y = y.subrows_mut(0, rows.len());
+                tile.for_blocks(ensemble, &ensemble.every, &mut |rows, z| {
+                    let (z, mut y) = (z.as_ref(), y.subrows_mut(0, rows.len()));
                     matmul(y.as_mut(), Accum::Replace, z, omega, 1.0, Par::Seq);
                     let image = sum.matrix_mut(m, width);
                     matmul(image, Accum::Add, z.transpose(), y.as_ref(), 1.0, Par::Seq);
                     sum.sums[m * width] += z.squared_norm_l2();
-                }
-                Ok(())
+                })
             })?;
             // An entry that is not finite makes the energy so: no need to look at each.
             if sum.sums[m * width].is_finite() { Ok(sum) } else { Err(ensemble.not_finite(rows)) }

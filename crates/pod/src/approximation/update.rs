@@ -1,6 +1,6 @@
 use super::Previous;
 use crate::agreement::all_or_none;
-use crate::algorithm::svd::decompose;
+use crate::algorithm::svd::by_correlation;
 use crate::algorithm::with_rows;
 use crate::dense::product;
 use crate::ensemble::check_dimensions;
@@ -127,7 +127,7 @@ pub(super) fn joined(
         let ensemble = run.ensemble.beside(&previous)?;
         let run = Run::new(&ensemble, run.execution, run.modes);
         previous.check(&run)?;
-        decompose(&run)
+        by_correlation(&run)
     })?;
     Ok(of_all_snapshots(old.decomposition, found, &previous))
 }

@@ -10,6 +10,9 @@ use jacobi::graded_svd;
 use crate::PodError;
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{
+    LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
 use faer::linalg::evd::{ComputeEigenvectors, self_adjoint_evd, self_adjoint_evd_scratch};
 use faer::linalg::matmul::matmul;
 use faer::linalg::svd::{ComputeSvdVectors, SvdParams, svd, svd_scratch};
@@ -102,6 +105,26 @@ pub(crate) fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     c
 }
 
+/// Whether columns with this Gram matrix are independent once they have norm one: the least eigenvalue of
+/// their correlation is above `least`. So it is if the correlation less that is positive definite.
+pub(crate) fn are_independent(gram: MatRef<'_, f64>, least: f64) -> bool {
+    let size = gram.nrows();
+    let norms: Vec<f64> = (0..size).map(|k| gram[(k, k)].sqrt()).collect();
+    let mut shifted = Mat::from_fn(size, size, |i, j| {
+        let correlation = gram[(i, j)] / norms[i] / norms[j];
+        if i == j { correlation - least } else { correlation }
+    });
+    let scratch = cholesky_in_place_scratch::<f64>(size, Par::Seq, Spec::default());
+    let factored = cholesky_in_place(
+        shifted.as_mut(),
+        LltRegularization::default(),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        Spec::default(),
+    );
+    factored.is_ok() && norms.iter().all(|norm| *norm > 0.0)
+}
+
 /// The upper triangular factor R of `G = Rᵀ R`, or nothing where G is not positive definite to working
 /// precision.
 pub(crate) fn cholesky_upper(g: MatRef<'_, f64>) -> Option<Mat<f64>> {
@@ -131,8 +154,7 @@ pub(crate) fn upper_inverse(r: MatRef<'_, f64>) -> Option<Mat<f64>> {
     Some(inverse)
 }
 
-/// Long matrices would go through faer's QR first, which drops small columns: see the module
-/// `householder`.
+/// Long matrices would go through faer's QR first, which drops columns under `16 rows eps` of the largest.
 fn without_qr() -> Spec<SvdParams, f64> {
     let mut params: SvdParams = Auto::<f64>::auto();
     params.qr_ratio_threshold = f64::INFINITY;

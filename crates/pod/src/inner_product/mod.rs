@@ -13,7 +13,8 @@ pub use identity::Identity;
 pub use kronecker::{Kronecker, Tridiagonal};
 pub use sparse::SparseSpd;
 
-use faer::MatMut;
+use crate::contiguous::gather;
+use faer::{MatMut, MatRef};
 use std::io;
 use std::ops::Range;
 
@@ -80,11 +81,35 @@ pub trait InnerProduct: Sync {
     /// # Errors
     /// The failure of the medium that holds the weights.
     fn factor(&self, rows: Range<usize>, x: MatMut<'_, f64>) -> io::Result<()>;
+    /// The same for some columns of `x`, in any order, out of place: column k of `out` comes from column
+    /// `columns[k]`. To be overridden where the copy can be saved.
+    ///
+    /// # Errors
+    /// The failure of the medium that holds the weights.
+    fn factor_columns(
+        &self,
+        rows: Range<usize>,
+        x: MatRef<'_, f64>,
+        columns: &[usize],
+        mut out: MatMut<'_, f64>,
+    ) -> io::Result<()> {
+        gather(x, columns, out.as_mut());
+        self.factor(rows, out)
+    }
     /// `x <- F⁻¹ x` for whole columns.
     ///
     /// # Errors
     /// The failure of the medium that holds the weights.
     fn unfactor(&self, x: MatMut<'_, f64>) -> io::Result<()>;
+}
+
+/// Rows after a row that the same row of `F x` depends on. Where that is all of them, only whole columns are
+/// weighted, and what is read by rows is so already.
+pub(crate) fn reach_of(product: &dyn InnerProduct) -> usize {
+    match product.reach() {
+        Reach::Rows(after) => after,
+        Reach::All => 0,
+    }
 }
 
 /// The rows of x that must be read for `rows` of `F x`.
