@@ -67,6 +67,11 @@ pub(crate) fn decode(message: &[u8]) -> Result<&[u8], Failure> {
     }
 }
 
+/// What every rank has, if all have it: [`all_or_none`] for what decompositions do.
+pub(crate) fn together<T>(ranks: &dyn Ranks, mine: Result<T, PodError>) -> Result<T, PodError> {
+    all_or_none(ranks, mine, |error| Failure::new(ranks.rank(), error))
+}
+
 /// Gives every rank what rank 0 finds, or its failure. Every rank must call this at the same point.
 ///
 /// * `tell`: what the others hear of a failure

@@ -34,7 +34,10 @@ pub(crate) fn correlation(
         let mut sum = Partial::zeros(m * m + 1, 0);
         ensemble.for_tiles(rows.clone(), &mut |mut tile| {
             if let Some(mean) = &tile.mean {
-                sum.sums[m * m] += energy(ensemble.product, &tile.rows, &mean.field)?;
+                for piece in tile.pieces(ensemble) {
+                    let field = &mean.field[piece.start - tile.rows.start..];
+                    sum.sums[m * m] += energy(ensemble.product, &piece, field)?;
+                }
             }
             tile.for_blocks(ensemble, order, &mut |_, mut z| {
                 if let Some(preconditioner) = preconditioner {

@@ -60,20 +60,18 @@ impl<'a> Ensemble<'a> {
             None => vec![1.0; m],
         };
         let (partition, plan) = planned(source, product, options, [m, width])?;
-        let (amplified, previous, workspaces) = (0.0, None, Mutex::default());
-        let every = (0..m).collect();
         Ok(Self {
             source,
             product,
             options,
             time_weights,
             scale,
-            amplified,
-            previous,
+            amplified: 0.0,
+            previous: None,
             partition,
             plan,
-            workspaces,
-            every,
+            workspaces: Mutex::default(),
+            every: (0..m).collect(),
         })
     }
 
@@ -82,23 +80,16 @@ impl<'a> Ensemble<'a> {
         let share = (previous.counts[1] / self.scale.len() as f64).sqrt();
         let mut scale = vec![1.0; previous.columns()];
         scale.extend(self.scale.iter().map(|s| s * share));
-        let Self { source, product, options, amplified, .. } = *self;
-        let (partition, plan) = planned(source, product, options, [scale.len(); 2])?;
-        let (time_weights, workspaces) = (self.time_weights.clone(), Mutex::default());
-        let every = (0..scale.len()).collect();
-        let previous = Some(previous);
+        let (partition, plan) = planned(self.source, self.product, self.options, [scale.len(); 2])?;
         Ok(Self {
-            source,
-            product,
-            options,
-            time_weights,
+            every: (0..scale.len()).collect(),
             scale,
-            amplified,
-            previous,
+            previous: Some(previous),
             partition,
             plan,
-            workspaces,
-            every,
+            time_weights: self.time_weights.clone(),
+            workspaces: Mutex::default(),
+            ..*self
         })
     }
 
@@ -184,7 +175,12 @@ fn planned(
     let partition = Partition::new(source.dim(), snapshots);
     let reach = reach_of(product);
     let (threads, read) = (options.par.degree().max(1), source.read_size());
-    let demand = Demand { partition, snapshots, sum: snapshots * width, threads, reach, read };
+    let modes = match options.truncation {
+        Truncation::Modes(modes) => modes.min(snapshots),
+        Truncation::Energy(_) => snapshots,
+    };
+    let sum = snapshots * width;
+    let demand = Demand { partition, snapshots, modes, sum, threads, reach, read };
     Ok((partition, Plan::new(&demand, options.memory_limit)?))
 }
 

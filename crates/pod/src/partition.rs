@@ -22,6 +22,11 @@ impl Partition {
         Self { rows, leaf, block }
     }
 
+    /// Number of rows.
+    pub fn rows(self) -> usize {
+        self.rows
+    }
+
     /// Number of leaves.
     pub fn leaves(self) -> usize {
         self.rows.div_ceil(self.leaf)

@@ -15,6 +15,8 @@ pub(crate) struct Plan {
 pub(crate) struct Demand {
     pub partition: Partition,
     pub snapshots: usize,
+    /// Modes that are made at most.
+    pub modes: usize,
     /// Numbers in one sum over the rows.
     pub sum: usize,
     pub threads: usize,
@@ -44,21 +46,23 @@ impl Plan {
             what: "the correlation of the snapshots, block by block",
             bytes: Self { tile: block, group: threads }.bytes(demand),
             limit,
-            remedy: "raise the limit, take fewer threads or fewer snapshots",
+            remedy: "raise the limit, take fewer threads or fewer snapshots, or one of the approximations",
         })
     }
 
-    /// Bytes held at once: tiles and their sums for each thread, sums on their way up the tree, and
-    /// the dense problems of the size of a sum.
+    /// Bytes held at once: tiles, what is made of them and their sums for each thread, sums on their way up
+    /// the tree and twice more where a journal keeps them, and the dense problems of the size of a sum.
     fn bytes(self, demand: &Demand) -> u128 {
-        const DENSE: usize = 6;
-        let Demand { partition, snapshots, sum, threads, reach, .. } = *demand;
+        const DENSE: usize = 8;
+        let Demand { partition, snapshots, modes, sum, threads, reach, .. } = *demand;
         let sum = 8 * sum as u128;
-        let rows = (self.tile + reach) + (partition.piece(reach) + reach);
-        let tile = 8 * rows as u128 * snapshots as u128;
+        let [tile, piece] =
+            [self.tile, partition.piece(reach)].map(|rows| rows.min(partition.rows()) + reach);
+        let snapshots = 8 * (tile + piece) as u128 * snapshots as u128;
+        let modes = 8 * (tile + 2 * piece) as u128 * (modes as u128 + 1);
         let depth = |leaves: usize| u128::from(leaves.max(1).ilog2()) + 2;
-        let of_thread = tile + depth(self.group / threads) * sum;
-        let tree = depth(partition.leaves().div_ceil(self.group));
+        let of_thread = snapshots + modes + depth(self.group / threads) * sum;
+        let tree = 3 * depth(partition.leaves().div_ceil(self.group));
         threads as u128 * of_thread + (tree + DENSE as u128) * sum
     }
 }
@@ -69,7 +73,15 @@ mod tests {
 
     fn demand(threads: usize) -> Demand {
         let partition = Partition::new(1_000_000, 200);
-        Demand { partition, snapshots: 200, sum: 200 * 200, threads, reach: 0, read: 16 << 20 }
+        Demand {
+            partition,
+            snapshots: 200,
+            modes: 20,
+            sum: 200 * 200,
+            threads,
+            reach: 0,
+            read: 16 << 20,
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use crate::agreement::{Failure, all_or_none, from_first};
+use crate::agreement::{Failure, from_first, together};
 use crate::ensemble::Ensemble;
 use crate::partial::Partial;
 use crate::reduction::Part;
@@ -61,8 +61,7 @@ impl<'a> Run<'a> {
 
     /// Whether all ranks may go on after what each has done to its files.
     pub fn all_or_none(&self, mine: io::Result<()>) -> Result<(), PodError> {
-        let ranks = self.execution.ranks;
-        all_or_none(ranks, mine.map_err(PodError::from), |error| Failure::new(ranks.rank(), error))
+        together(self.execution.ranks, mine.map_err(PodError::from))
     }
 
     /// Passes over the snapshots so far.

@@ -1,3 +1,4 @@
+use crate::agreement::together;
 use crate::ensemble::Ensemble;
 use crate::partial::Partial;
 use crate::run::Run;
@@ -91,7 +92,8 @@ pub fn finite_snapshots(
     let Options { par, memory_limit, .. } = *options;
     // Not centred: one infinite entry would spoil its whole row.
     let as_they_are = Options { par, memory_limit, ..Options::default() };
-    let ensemble = Ensemble::new(x, &product, &as_they_are)?;
+    let ensemble = Ensemble::for_sums(x, &product, &as_they_are, 1);
+    let ensemble = together(execution.ranks, ensemble)?;
     let part = |rows: Range<usize>| {
         let mut sum = Partial::zeros(x.times().len(), 0);
         ensemble.for_tiles(rows, &mut |tile| {

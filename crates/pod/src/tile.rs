@@ -81,24 +81,46 @@ impl Ensemble<'_> {
 }
 
 impl Tile<'_> {
-    /// Gives `visit` some columns of `F X`, in this order, in blocks of rows that stay in the cache: what it
-    /// sums depends on them, and they must not depend on the tile.
+    /// Its rows in pieces to be weighted at a time. They are whole blocks: sums are taken block by block,
+    /// as a tile depends on the memory that may be taken and sums must not.
+    pub fn pieces(&self, ensemble: &Ensemble<'_>) -> impl Iterator<Item = Range<usize>> + use<> {
+        let size = ensemble.partition.piece(reach_of(ensemble.product));
+        Partition::pieces(self.rows.clone(), size)
+    }
+
+    /// The snapshots on a piece and on the rows after it that the inner product reaches.
+    pub fn on(&self, ensemble: &Ensemble<'_>, piece: &Range<usize>) -> MatRef<'_, f64> {
+        let rows = support(ensemble.product, piece);
+        self.x.subrows(rows.start - self.rows.start, rows.len())
+    }
+
+    /// Some columns of `F X` on a piece, in this order.
+    pub fn weighted(
+        &mut self,
+        ensemble: &Ensemble<'_>,
+        piece: &Range<usize>,
+        columns: &[usize],
+    ) -> Result<MatMut<'_, f64>, PodError> {
+        let rows = support(ensemble.product, piece);
+        let x = self.x.subrows(rows.start - self.rows.start, rows.len());
+        let mut z = self.scratch.as_mut().submatrix_mut(0, 0, rows.len(), columns.len());
+        ensemble.product.factor_columns(piece.clone(), x, columns, z.as_mut())?;
+        Ok(z.subrows_mut(0, piece.len()))
+    }
+
+    /// Gives `visit` some columns of `F X`, in this order, block by block.
     ///
-    /// * `visit`: takes the rows of a block, counted from the first of the tile, and the block
+    /// * `visit`: takes the number of the first row of a block, and the block
     pub fn for_blocks(
         &mut self,
         ensemble: &Ensemble<'_>,
         columns: &[usize],
-        visit: &mut dyn FnMut(Range<usize>, MatMut<'_, f64>),
+        visit: &mut dyn FnMut(usize, MatMut<'_, f64>),
     ) -> Result<(), PodError> {
-        let (product, partition) = (ensemble.product, ensemble.partition);
-        for piece in Partition::pieces(self.rows.clone(), partition.piece(reach_of(product))) {
-            let (first, support) = (piece.start - self.rows.start, support(product, &piece));
-            let mut z = self.scratch.as_mut().submatrix_mut(0, 0, support.len(), columns.len());
-            let x = self.x.subrows(first, support.len());
-            product.factor_columns(piece.clone(), x, columns, z.as_mut())?;
-            for Range { start, end } in Partition::pieces(0..piece.len(), partition.block()) {
-                visit(first + start..first + end, z.as_mut().subrows_mut(start, end - start));
+        for piece in self.pieces(ensemble) {
+            let mut z = self.weighted(ensemble, &piece, columns)?;
+            for rows in Partition::pieces(0..piece.len(), ensemble.partition.block()) {
+                visit(piece.start + rows.start, z.as_mut().subrows_mut(rows.start, rows.len()));
             }
         }
         Ok(())

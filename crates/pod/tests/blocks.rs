@@ -37,7 +37,8 @@ fn threads_do_not_change_a_bit() {
     }
 }
 
-/// A source that is best read in large blocks: with less memory they are smaller, and the bits the same.
+/// A source that is best read in large blocks: with less memory they are smaller, and the bits the same; so they
+/// are where the snapshots are read in memory.
 #[test]
 fn memory_does_not_change_a_bit() {
     struct Large(MemorySnapshots);
@@ -58,17 +59,26 @@ fn memory_does_not_change_a_bit() {
     let n = 60_001;
     let w = common::grid(n);
     let sigma: Vec<f64> = (0..9).map(|k| 0.1_f64.powi(k)).collect();
-    let x = Large(MemorySnapshots::new(with_singular_values(&sigma, (n, 90), &w, 7), times(90)));
+    let mut x = with_singular_values(&sigma, (n, 90), &w, 7);
+    for (i, row) in x.row_iter_mut().enumerate() {
+        row.iter_mut().for_each(|x| *x += (0.01 * i as f64).cos()); // a mean to be subtracted
+    }
+    let in_memory = MemorySnapshots::new(x, times(90));
+    let in_blocks = Large(in_memory.clone());
     for algorithm in ALGORITHMS.iter().chain(APPROXIMATIONS).filter(|a| a.name != "direct") {
-        let basis = |memory_limit| {
-            let truncation = Truncation::Modes(4);
-            let options =
-                Options { truncation, residuals: true, memory_limit, ..Options::default() };
-            (algorithm.run)(&x, &w, &options).expect("a decomposition")
-        };
-        let (plenty, little) = (basis(1 << 32), basis(26 << 20));
-        assert_eq!(plenty.modes, little.modes, "{}", algorithm.name);
-        assert_eq!(plenty.decomposition, little.decomposition, "{}", algorithm.name);
+        for center in [false, true] {
+            let basis = |x: &dyn SnapshotSource, memory_limit| {
+                let truncation = Truncation::Modes(4);
+                let options = Options { truncation, center, memory_limit, ..Options::default() };
+                let options = Options { residuals: true, ..options };
+                (algorithm.run)(x, &w, &options).expect("a decomposition")
+            };
+            let plenty = basis(&in_blocks, 1 << 32);
+            for other in [basis(&in_blocks, 30 << 20), basis(&in_memory, 1 << 32)] {
+                assert_eq!(plenty.modes, other.modes, "{}", algorithm.name);
+                assert_eq!(plenty.decomposition, other.decomposition, "{}", algorithm.name);
+            }
+        }
     }
 }
 

@@ -280,3 +280,27 @@ fn every_rank_learns_which_snapshots_are_finite() {
     });
     assert!(finite.iter().all(|of_rank| *of_rank == [0, 2, 4]), "{finite:?}");
 }
+
+/// The machine of one rank has less memory than that of the other: both hear of it.
+#[test]
+fn a_rank_without_memory_stops_all() {
+    let x = MemorySnapshots::new(random_matrix(4000, 20, 3), times(20));
+    for poor in [0, 1] {
+        let found = on_ranks(2, |ranks| {
+            let memory_limit = if ranks.rank() == poor { 1000 } else { 1 << 30 };
+            let options = Options { memory_limit, ..Options::default() };
+            let execution = Execution { ranks, ..Execution::default() };
+            let (w, modes) = (Identity::new(4000), Shared::default());
+            let error = (ALGORITHMS[0].stream)(&x, &w, &options, execution, &modes);
+            let checked = finite_snapshots(&x, &options, execution);
+            [error.expect_err("no memory"), checked.expect_err("no memory")]
+        });
+        for (rank, errors) in found.iter().enumerate() {
+            for error in errors {
+                let own = matches!(error, PodError::Memory { limit: 1000, .. });
+                let heard = matches!(error, PodError::Elsewhere(failure) if failure.rank == poor);
+                assert!(if rank == poor { own } else { heard }, "rank {rank}: {error}");
+            }
+        }
+    }
+}

@@ -16,6 +16,7 @@ pub use direct::direct;
 pub use snapshots::method_of_snapshots;
 pub use svd::svd;
 
+use crate::agreement::together;
 use crate::ensemble::{Ensemble, check_dimensions};
 use crate::run::Run;
 use crate::{
@@ -121,5 +122,7 @@ pub(crate) fn with_sums(
     if w.reach() == Reach::All {
         return whole::with_columns(x, w, options, execution, modes, width, algorithm);
     }
-    algorithm(&Run::new(&Ensemble::for_sums(x, w, options, width)?, execution, modes))
+    // The machine of one rank may have less memory than that of another.
+    let ensemble = together(execution.ranks, Ensemble::for_sums(x, w, options, width))?;
+    algorithm(&Run::new(&ensemble, execution, modes))
 }

@@ -78,30 +78,48 @@ impl Lift<'_> {
         mut tile: Tile<'_>,
         sum: &mut Partial,
     ) -> Result<(), PodError> {
-        let (kept, count) = (self.to_modes.ncols(), tile.rows.len());
-        let means = usize::from(tile.mean.is_some());
-        let mut columns = Mat::zeros(tile.x.nrows(), kept + means);
-        let raw = columns.subcols_mut(0, kept);
-        matmul(raw, Accum::Replace, tile.x, self.to_modes, 1.0, Par::Seq);
-        if let Some(mean) = &tile.mean {
-            columns.col_mut(kept).iter_mut().zip(&mean.field).for_each(|(to, u)| *to = *u);
+        let (kept, first) = (self.to_modes.ncols(), tile.rows.start);
+        let mut columns = Mat::zeros(tile.rows.len(), kept + usize::from(tile.mean.is_some()));
+        for piece in tile.pieces(ensemble) {
+            let mean = tile.mean.as_ref().map(|mean| &mean.field[piece.start - first..]);
+            let mut own = self.columns(ensemble, tile.on(ensemble, &piece), mean);
+            let raw = own.subrows(0, piece.len());
+            columns.subrows_mut(piece.start - first, piece.len()).copy_from(raw);
+            sum.add_extremes(raw.subcols(0, kept));
+            ensemble.product.factor(piece.clone(), own.as_mut())?;
+            let measured = self.measured.then_some(&ensemble.every);
+            let mut z = measured.map(|all| tile.weighted(ensemble, &piece, all)).transpose()?;
+            for rows in Partition::pieces(0..piece.len(), ensemble.partition.block()) {
+                let weighted = own.subrows(rows.start, rows.len());
+                add_gram(sum.matrix_mut(kept, kept), weighted.subcols(0, kept));
+                if let Some(z) = &mut z {
+                    let z = z.as_mut().subrows_mut(rows.start, rows.len());
+                    self.add_residuals(&mut sum.sums[kept * kept..], &ensemble.scale, weighted, z);
+                }
+            }
         }
-        modes.write(tile.rows.clone(), columns.subrows(0, count))?;
-        sum.add_extremes(columns.get(..count, ..kept));
-        ensemble.product.factor(tile.rows.clone(), columns.as_mut())?;
-        // By blocks: the tile depends on the memory that may be taken, the sums must not.
-        for Range { start, end } in Partition::pieces(0..count, ensemble.partition.block()) {
-            let weighted = columns.subrows(start, end - start);
-            add_gram(sum.matrix_mut(kept, kept), weighted.subcols(0, kept));
+        Ok(modes.write(tile.rows, columns.as_ref())?)
+    }
+
+    /// Rows of the columns, and of the mean behind them where it was subtracted.
+    fn columns(
+        &self,
+        ensemble: &Ensemble<'_>,
+        x: MatRef<'_, f64>,
+        mean: Option<&[f64]>,
+    ) -> Mat<f64> {
+        let kept = self.to_modes.ncols();
+        let mut columns = Mat::zeros(x.nrows(), kept + usize::from(mean.is_some()));
+        // Block by block: how a product is taken depends on its shape.
+        for rows in Partition::pieces(0..x.nrows(), ensemble.partition.block()) {
+            let x = x.subrows(rows.start, rows.len());
+            let to = columns.get_mut(rows, ..kept);
+            matmul(to, Accum::Replace, x, self.to_modes, 1.0, Par::Seq);
         }
-        if self.measured {
-            let sums = &mut sum.sums[kept * kept..];
-            tile.for_blocks(ensemble, &ensemble.every, &mut |rows, z| {
-                let weighted = columns.subrows(rows.start, rows.len());
-                self.add_residuals(sums, &ensemble.scale, weighted, z);
-            })?;
+        if let Some(mean) = mean {
+            columns.col_mut(kept).iter_mut().zip(mean).for_each(|(to, u)| *to = *u);
         }
-        Ok(())
+        columns
     }
 
     /// * `weighted`: F times the columns, and the mean behind them where it was subtracted

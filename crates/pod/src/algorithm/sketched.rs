@@ -72,9 +72,8 @@ fn sketch(run: &Run<'_>) -> Result<Mat<f64>, PodError> {
     let part = |rows: Range<usize>| {
         let mut sum = Partial::zeros(sketch.rows() * m, 0);
         ensemble.for_tiles(rows.clone(), &mut |mut tile| {
-            let first = tile.rows.start;
-            tile.for_blocks(ensemble, &ensemble.every, &mut |rows, z| {
-                sketch.add(sum.matrix_mut(sketch.rows(), m), z.as_ref(), first + rows.start);
+            tile.for_blocks(ensemble, &ensemble.every, &mut |first, z| {
+                sketch.add(sum.matrix_mut(sketch.rows(), m), z.as_ref(), first);
             })
         })?;
         let finite = sum.sums.iter().all(|x| x.is_finite());

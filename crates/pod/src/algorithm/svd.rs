@@ -17,7 +17,7 @@ use faer::{Mat, MatRef};
 /// F X = Q A,   A = U Sigma Vᵀ,   Phi_n = X v_n / sigma_n,   lambda_n = sigma_n² / M
 /// ```
 ///
-/// A first pass takes few random combinations of the rows, a sketch S of F X. A pivoted factor of S makes
+/// A first pass takes a few random combinations of the rows, a sketch S of F X. A pivoted factor of S makes
 /// nearly orthogonal columns `Y = F X P U⁻¹`, formed block by block, whose Gram matrix loses nothing:
 /// `Yᵀ Y = Rᵀ R` and `A = R U Pᵀ`. Where there are less than about 8 M unknowns, or the sketch turns out to
 /// miss a direction, the Gram matrix of F X takes its place: its factor tells the columns apart as far as

@@ -6,9 +6,9 @@ use crate::run::Run;
 use crate::snapshots::MemorySnapshots;
 use crate::{
     Decomposition, Execution, Identity, InnerProduct, MemoryModes, ModeStore, NoJournal, Options,
-    PodError, SnapshotSource,
+    PodError, SnapshotSource, time_weights,
 };
-use faer::Mat;
+use faer::{ColRef, Mat};
 
 /// Decomposes `F X` in the Euclidean product; the modes are `F⁻¹` of what comes of it.
 ///
@@ -26,9 +26,11 @@ pub(super) fn with_columns(
         return Err(PodError::WholeColumns { ranks: execution.ranks.count() });
     }
     let (z, amplified) = weighted(x, w, options)?;
+    let memory_limit = options.memory_limit - 8 * (z.nrows() * z.ncols()) as u64;
+    let options = Options { memory_limit, ..options.clone() };
     let z = MemorySnapshots::new(z, x.times().to_vec());
     let identity = Identity::new(w.dim());
-    let mut ensemble = Ensemble::for_sums(&z, &identity, options, width)?;
+    let mut ensemble = Ensemble::for_sums(&z, &identity, &options, width)?;
     ensemble.amplified = amplified;
     let found = MemoryModes::default();
     // Columns in memory do not outlive the process: no journal may count on them.
@@ -45,6 +47,7 @@ pub(super) fn with_columns(
         let mut column = Mat::from_fn(mean.len(), 1, |i, _| mean[i]);
         w.unfactor(column.as_mut()).map(|()| column.col_as_slice(0).to_vec())
     });
+    decomposition.passes = 1; // the others were over F X
     modes.begin(w.dim(), basis.ncols(), mean.is_some())?;
     modes.publish(0..w.dim(), basis.as_ref(), mean.transpose()?.as_deref())?;
     Ok(decomposition)
@@ -70,8 +73,9 @@ fn weighted(
     crate::ensemble::read_checked(x, 0..n, 0..m, z.as_mut())?;
     let diagonal = w.diagonal()?;
     let energy =
-        |u: faer::ColRef<'_, f64>| -> f64 { u.iter().zip(&diagonal).map(|(u, w)| w * u * u).sum() };
-    let amplified = z.col_iter().map(energy).sum::<f64>() / m as f64;
+        |u: ColRef<'_, f64>| -> f64 { u.iter().zip(&diagonal).map(|(u, w)| w * u * u).sum() };
+    let time_weights = time_weights::normalised(options.time_weights.as_deref(), m)?;
+    let amplified = z.col_iter().zip(&time_weights).map(|(u, q)| q * energy(u)).sum();
     w.factor(0..n, z.as_mut())?;
     Ok((z, amplified))
 }

@@ -130,8 +130,8 @@ impl Image {
             let mut sum = Partial::zeros(m * width + 1, 0);
             let mut y = Mat::zeros(block, width);
             ensemble.for_tiles(rows.clone(), &mut |mut tile| {
-                tile.for_blocks(ensemble, &ensemble.every, &mut |rows, z| {
-                    let (z, mut y) = (z.as_ref(), y.subrows_mut(0, rows.len()));
+                tile.for_blocks(ensemble, &ensemble.every, &mut |_, z| {
+                    let (z, mut y) = (z.as_ref(), y.subrows_mut(0, z.nrows()));
                     matmul(y.as_mut(), Accum::Replace, z, omega, 1.0, Par::Seq);
                     let image = sum.matrix_mut(m, width);
                     matmul(image, Accum::Add, z.transpose(), y.as_ref(), 1.0, Par::Seq);

@@ -1,13 +1,13 @@
 use super::Previous;
-use crate::agreement::all_or_none;
+use crate::agreement::together;
 use crate::algorithm::svd::by_correlation;
 use crate::algorithm::with_rows;
 use crate::dense::product;
 use crate::ensemble::check_dimensions;
 use crate::run::Run;
 use crate::{
-    Decomposition, Execution, Failure, InnerProduct, MemoryModes, ModeSource, ModeStore, Options,
-    PodError, Reach, ReducedBasis, SnapshotSource,
+    Decomposition, Execution, InnerProduct, MemoryModes, ModeSource, ModeStore, Options, PodError,
+    Reach, ReducedBasis, SnapshotSource,
 };
 use faer::{Mat, Scale};
 
@@ -115,7 +115,7 @@ pub(super) fn joined(
     }
     let ranks = execution.ranks;
     let mean = old.modes.mean_of(0..0).map_err(PodError::from);
-    let centred = all_or_none(ranks, mean, |error| Failure::new(ranks.rank(), error))?.is_some();
+    let centred = together(ranks, mean)?.is_some();
     if centred != options.center {
         return Err(PodError::Centring { centred });
     }
@@ -124,7 +124,7 @@ pub(super) fn joined(
     let previous = Previous::new(old.decomposition, columns, counts, centred);
     let options = Options { residuals: false, ..options.clone() };
     let found = with_rows(new, w, &options, execution, modes, &|run| {
-        let ensemble = run.ensemble.beside(&previous)?;
+        let ensemble = together(ranks, run.ensemble.beside(&previous))?;
         let run = Run::new(&ensemble, run.execution, run.modes);
         previous.check(&run)?;
         by_correlation(&run)
