@@ -21,11 +21,15 @@ def seconds(ranks, n, m, modes, disk, exact):
     leaves = math.ceil(n / leaf)
     rows = min(n, math.ceil(leaves / ranks) * leaf)
     passes = 3 if exact else 2
-    flops = rows * (m * m * (3 if exact else 1) + 4 * m * modes)
+    # M x M products over the rows, and numbers in the sums of the passes; svd with a sketch, or without.
+    products, sums = 1, [m * m]
+    if exact:
+        sketched = 2 * m + 64 <= 4096
+        products, sums = 2 if sketched else 3, [(2 * m + 64) * m if sketched else m * m, m * m]
+    flops = rows * (m * m * products + 4 * m * modes)
     read = passes * max(8 * rows * m / READ, 8 * n * m / disk)
     levels = math.ceil(math.log2(ranks)) if ranks > 1 else 0
-    hop = LATENCY + 8 * m * m / MESSAGE
-    tree = (passes - 1) * levels * (2 * hop + 8 * m * m / MERGE)
+    tree = sum(levels * (2 * (LATENCY + 8 * s / MESSAGE) + 8 * s / MERGE) for s in sums)
     dense = DENSE * m**3 / DENSE_RATE
     return flops / RATE, read, tree, dense
 

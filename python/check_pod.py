@@ -2,7 +2,8 @@
 
     python check_pod.py POD.npz X.npy [--weights W.npy]
 
-X.npy has one snapshot a row. Prints how far each property is from holding:
+X.npy has one snapshot a row, of one axis or several; W.npy a weight for each unknown, or for each node of
+components that come one after the other. Prints how far each property is from holding:
 
 - orthonormal     max |Phi^T W Phi - I|
 - coefficients    max |a - Phi^T W (X - mean)| / sigma_1
@@ -51,19 +52,23 @@ class Pod:
         self.modes, self.a = member(path, "modes"), member(path, "coefficients")
         self.sigma, self.q = member(path, "singular_values"), member(path, "time_weights")
         self.mean = member(path, "mean") if has(path, "mean") else None
-        self.x = np.load(data, mmap_mode="r")
+        x = np.load(data, mmap_mode="r")
+        self.x = x.reshape(len(x), -1)
         self.m, self.n = self.x.shape
-        self.w = np.load(weights, mmap_mode="r") if weights else np.ones(self.n)
+        self.w = np.load(weights, mmap_mode="r").ravel() if weights else np.ones(1)
+        if self.n % len(self.w):
+            sys.exit(f"{weights}: {len(self.w)} weights do not fit {self.n} unknowns")
 
     def blocks(self):
         """Snapshots (one a row, without their mean), modes and weights of some unknowns."""
         step = max(1, BLOCK // (8 * self.m))
         for first in range(0, self.n, step):
             part = slice(first, min(first + step, self.n))
+            node = np.arange(part.start, part.stop) % len(self.w)
             u = np.array(self.x[:, part], float)
             if self.mean is not None:
                 u -= self.mean[part]
-            yield u, np.array(self.modes[part]), np.array(self.w[part])
+            yield u, np.array(self.modes[part]), np.array(self.w[node], float)
 
     def products(self):
         """Phi^T W Phi, Phi^T W X and X^T W X."""
@@ -104,7 +109,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("pod", help="pod.npz of a run")
     parser.add_argument("snapshots", help="NPY file, one snapshot a row")
-    parser.add_argument("--weights", help="NPY file, one weight for each unknown")
+    parser.add_argument("--weights", help="NPY file, one weight for each unknown or each node")
     parser.add_argument("--tolerance", type=float, default=1e-12)
     options = parser.parse_args()
     found = defects(Pod(options.pod, options.snapshots, options.weights))

@@ -61,10 +61,14 @@ pub enum Error {
         path: PathBuf,
     },
     /// The decomposition that is to go on was begun with other snapshots.
-    #[error("{}: the unfinished decomposition was begun with other snapshots, weights or options\n  help: begin again with --force, or give what it was begun with", path.display())]
+    #[error("{}: the unfinished decomposition was begun with other snapshots, weights or options: then {begun}; now {now}\n  help: begin again with --force, or give what it was begun with", path.display())]
     OtherSnapshots {
         /// The unfinished run.
         path: PathBuf,
+        /// The first thing that differs, as it was.
+        begun: String,
+        /// As it is now.
+        now: String,
     },
     /// The settings of `lumley rom` need another basis than the run has.
     #[error("{}: its modes cannot serve with another {key}\n  help: `lumley rom` changes piston (but for domain_length), time, record, rom and pod.modes; for the rest make a new run with `lumley run`", path.display())]
@@ -143,15 +147,16 @@ impl Error {
         }
     }
 
-    /// Whether a disk or file was to blame, and not what stood there.
-    pub(crate) fn is_of_medium(&self) -> bool {
+    /// Whether the machine was to blame, its disk or the memory that could be taken, and not what stood in
+    /// the files.
+    pub(crate) fn is_of_machine(&self) -> bool {
         match self {
             Self::Pod { source: PodError::Medium(error), .. } => {
                 error.kind() != io::ErrorKind::InvalidData
             }
-            Self::Format(FormatError::Io { .. }) | Self::Directory(DirectoryError::Io { .. }) => {
-                true
-            }
+            Self::Pod { source: PodError::Memory { .. }, .. }
+            | Self::Format(FormatError::Io { .. })
+            | Self::Directory(DirectoryError::Io { .. }) => true,
             // It does not say; what may be gone on with must not be lost.
             Self::Elsewhere(failure) => !failure.of_computation,
             _ => false,

@@ -21,7 +21,7 @@ const PROGRAM: &str = "lumley";
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
     /// There is no such file.
-    #[error("{} is missing\n  help: give the directory that `lumley run` printed", path.display())]
+    #[error("{} is missing\n  help: give the directory that `lumley run` or `lumley pod` printed", path.display())]
     Missing {
         /// The manifest.
         path: PathBuf,
@@ -35,7 +35,7 @@ pub enum ManifestError {
         source: io::Error,
     },
     /// Not a manifest of any program.
-    #[error("{} is not JSON: {source}\n  help: give the directory that `lumley run` printed", path.display())]
+    #[error("{} is not JSON: {source}\n  help: give the directory that `lumley run` or `lumley pod` printed", path.display())]
     NotJson {
         /// The file.
         path: PathBuf,
@@ -43,7 +43,7 @@ pub enum ManifestError {
         source: serde_json::Error,
     },
     /// The manifest of something else.
-    #[error("{} was not written by lumley\n  help: give the directory that `lumley run` printed", path.display())]
+    #[error("{} was not written by lumley\n  help: give the directory that `lumley run` or `lumley pod` printed", path.display())]
     OtherProgram {
         /// The file.
         path: PathBuf,
@@ -78,8 +78,8 @@ pub struct Manifest {
     /// The inputs and their checksums.
     pub inputs: Vec<Input>,
     /// What a command that goes on with an unfinished run must agree with, beside the inputs.
-    #[serde(default, skip_serializing_if = "String::is_empty")]
-    pub settings: String,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub settings: Vec<String>,
     /// The machine.
     pub machine: Machine,
     /// The stages and their wall-clock times, in order.
@@ -198,7 +198,7 @@ impl Manifest {
             case: case.to_owned(),
             command: command.to_owned(),
             inputs: Vec::new(),
-            settings: String::new(),
+            settings: Vec::new(),
             machine: Machine::this(),
             stages: Vec::new(),
             complete: false,

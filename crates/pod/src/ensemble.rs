@@ -54,12 +54,12 @@ impl<'a> Ensemble<'a> {
         let m = source.times().len();
         check_dimensions(source, product)?;
         check_truncation(options.truncation)?;
+        let (partition, plan) = planned(source, product, options, [m, width])?;
         let time_weights = time_weights::normalised(options.time_weights.as_deref(), m)?;
         let scale = match &options.time_weights {
             Some(_) => time_weights.iter().map(|q| (m as f64 * q).sqrt()).collect(),
             None => vec![1.0; m],
         };
-        let (partition, plan) = planned(source, product, options, [m, width])?;
         Ok(Self {
             source,
             product,

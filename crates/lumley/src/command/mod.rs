@@ -15,7 +15,6 @@ use crate::directory::Existing;
 use crate::progress::{Progress, tell};
 use crate::ranks::{Job, together};
 use clap::{Args, Parser, Subcommand};
-use lumley_pod::Ranks;
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -97,7 +96,7 @@ pub fn main() -> ExitCode {
     };
     let (rank, count) = (job.ranks().rank(), job.ranks().count());
     let who = if count > 1 { format!("rank {rank}: ") } else { String::new() };
-    match dispatch(cli.command, job.ranks()) {
+    match dispatch(cli.command, &job) {
         Ok(()) => job.end(0),
         // That process says why, and ends them all.
         Err(Error::Elsewhere(failure)) => job.wait_for_end_by(failure.rank),
@@ -110,11 +109,12 @@ fn report_failure(who: &str, error: &Error) -> u8 {
     error.exit_code()
 }
 
-fn dispatch(command: Command, ranks: &dyn Ranks) -> Result<(), Error> {
+fn dispatch(command: Command, job: &Job) -> Result<(), Error> {
+    let ranks = job.ranks();
     let first = ranks.rank() == 0;
     let mut progress = if first { Progress::stderr() } else { Progress::silent() };
     match command {
-        Command::Pod(arguments) => arguments.execute(ranks, &mut progress),
+        Command::Pod(arguments) => arguments.execute(job, &mut progress),
         _ if ranks.count() > 1 => {
             together(ranks, if first { Err(Error::OneProcess) } else { Ok(()) })
         }

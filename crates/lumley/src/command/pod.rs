@@ -4,12 +4,13 @@ use crate::case::PodChoice;
 use crate::directory::default_target;
 use crate::format::npy::SnapshotLayout;
 use crate::progress::Progress;
-use crate::ranks::path_of_first;
+use crate::ranks::{Job, path_of_first, together};
 use crate::report::FieldGrid;
 use crate::run::{PodInput, Task, decompose_snapshots};
+use crate::summary::Summary;
 use clap::{Args, ValueEnum};
 use lumley_pod::{ALGORITHMS, APPROXIMATIONS, Ranks, Truncation};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 #[derive(Args)]
@@ -47,7 +48,8 @@ pub(super) struct Arguments {
     /// Subtract the mean over time
     #[arg(long)]
     center: bool,
-    /// Most memory to take, such as 200MB or 4GiB; by default a quarter of the machine's
+    /// Most memory for each process to take, such as 200MB or 4GiB; by default all those on a machine
+    /// share a quarter of its memory
     #[arg(long, value_name = "SIZE", value_parser = size)]
     memory: Option<u64>,
     /// Leave out snapshots that hold NaN or infinity; else they are an error
@@ -106,13 +108,22 @@ fn methods() -> clap::builder::PossibleValuesParser {
 }
 
 impl Arguments {
-    pub(super) fn execute(&self, ranks: &dyn Ranks, progress: &mut Progress) -> Result<(), Error> {
-        if self.grid.len() > 3 {
-            let value = self.grid.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
-            let expected = "one to three numbers of nodes".into();
-            return Err(Error::Argument { argument: "--grid", value, expected });
+    pub(super) fn execute(&self, job: &Job, progress: &mut Progress) -> Result<(), Error> {
+        let ranks = job.ranks();
+        let input = together(ranks, self.input())?;
+        let mut task = Task::new(&self.target(ranks)?, self.output.existing(self.resume));
+        task.threads = self.threads.map_or(task.threads, usize::from);
+        task.neighbours = job.neighbours();
+        task.checkpoint = Duration::from_secs(self.checkpoint);
+        let (directory, summary) = decompose_snapshots(&input, &task, ranks, progress)?;
+        if ranks.rank() > 0 {
+            return Ok(());
         }
-        let input = PodInput {
+        if self.output.json { say(&summary.to_json()) } else { tell_result(&directory, &summary) }
+    }
+
+    fn input(&self) -> Result<PodInput, Error> {
+        Ok(PodInput {
             path: self.snapshots_file.clone(),
             weights: self.weights.clone(),
             layout: match self.snapshots {
@@ -120,38 +131,26 @@ impl Arguments {
                 Layout::Columns => SnapshotLayout::Columns,
             },
             times: self.times.clone(),
-            grid: self.field_grid(),
+            grid: self.field_grid()?,
             components: self.components,
             choice: self.choice()?,
             memory: self.memory,
             skip_non_finite: self.skip_non_finite,
             update: self.update.clone(),
-        };
-        let stem = self.snapshots_file.file_stem().unwrap_or_default();
-        let name = format!("{}-pod", stem.to_string_lossy());
-        let named = self.output.directory.clone();
-        let target = match named {
-            Some(directory) => directory,
-            None => path_of_first(ranks, || default_target(&name, self.resume))?,
-        };
-        let mut task = Task::new(&target, self.output.existing(self.resume));
-        task.threads = self.threads.map_or(task.threads, usize::from);
-        task.checkpoint = Duration::from_secs(self.checkpoint);
-        let (directory, summary) = decompose_snapshots(&input, &task, ranks, progress)?;
-        if ranks.rank() > 0 {
-            return Ok(());
+        })
+    }
+
+    /// The run directory: the one that is named, or one that is named after the snapshots.
+    fn target(&self, ranks: &dyn Ranks) -> Result<PathBuf, Error> {
+        if let Some(directory) = &self.output.directory {
+            return Ok(directory.clone());
         }
-        if self.output.json {
-            say(&summary.to_json())?;
-        } else {
-            let energy = summary.pod.cumulative_percent.last().copied().unwrap_or_default();
-            let bound = summary.pod.error_bound.map(|bound| format!(", error bound {bound:.1e}"));
-            let bound = bound.unwrap_or_default();
-            say(&format!("{} modes, {energy:.4} % of the energy{bound}", summary.pod.modes))?;
-            say(&format!("{}", directory.join("pod.npz").display()))?;
-            say(&format!("{}", directory.join("report.html").display()))?;
-        }
-        Ok(())
+        path_of_first(ranks, || {
+            // `.` and `..` have a name elsewhere only.
+            let whole = self.snapshots_file.canonicalize().unwrap_or_default();
+            let stem = self.snapshots_file.file_stem().or(whole.file_stem()).unwrap_or_default();
+            default_target(&format!("{}-pod", stem.to_string_lossy()), self.resume)
+        })
     }
 
     fn choice(&self) -> Result<PodChoice, Error> {
@@ -172,9 +171,25 @@ impl Arguments {
         Ok(PodChoice { method, truncation, center: self.center })
     }
 
-    fn field_grid(&self) -> Option<FieldGrid> {
+    fn field_grid(&self) -> Result<Option<FieldGrid>, Error> {
         let mut nodes = [1; 3];
-        nodes.iter_mut().zip(&self.grid).for_each(|(to, n)| *to = *n);
-        (!self.grid.is_empty()).then_some(FieldGrid { nodes, components: self.components })
+        let Some(given) = nodes.get_mut(..self.grid.len()) else {
+            let value = self.grid.iter().map(ToString::to_string).collect::<Vec<_>>().join(",");
+            let expected = "one to three numbers of nodes".into();
+            return Err(Error::Argument { argument: "--grid", value, expected });
+        };
+        given.copy_from_slice(&self.grid);
+        let components = self.components;
+        Ok((!self.grid.is_empty()).then_some(FieldGrid { nodes, components }))
     }
+}
+
+/// What came of it, for people.
+fn tell_result(directory: &Path, summary: &Summary) -> Result<(), Error> {
+    let energy = summary.pod.cumulative_percent.last().copied().unwrap_or_default();
+    let bound = summary.pod.error_bound.map(|bound| format!(", error bound {bound:.1e}"));
+    let bound = bound.unwrap_or_default();
+    say(&format!("{} modes, {energy:.4} % of the energy{bound}", summary.pod.modes))?;
+    say(&format!("{}", directory.join("pod.npz").display()))?;
+    say(&format!("{}", directory.join("report.html").display()))
 }

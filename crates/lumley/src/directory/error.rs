@@ -68,13 +68,13 @@ pub enum DirectoryError {
         path: PathBuf,
     },
     /// Not a directory that lumley made.
-    #[error("{}: no run of lumley here ({MANIFEST} is missing)\n  help: give the directory that `lumley run` printed", path.display())]
+    #[error("{}: no run of lumley here ({MANIFEST} is missing)\n  help: give the directory that `lumley run` or `lumley pod` printed", path.display())]
     NotARun {
         /// What was given.
         path: PathBuf,
     },
     /// A run that is needed whole is not.
-    #[error("{} is an unfinished run\n  help: continue it with `lumley run --resume`", path.display())]
+    #[error("{} is an unfinished run\n  help: continue it with --resume, as it was begun", path.display())]
     Incomplete {
         /// The run.
         path: PathBuf,

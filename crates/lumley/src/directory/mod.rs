@@ -45,7 +45,7 @@ pub struct Workplace {
     target: PathBuf,
     partial: PathBuf,
     existing: Existing,
-    _lock: File,
+    lock: File,
 }
 
 impl Workplace {
@@ -70,10 +70,10 @@ impl Workplace {
         if existing.replace && !existing.resume {
             clear(&partial)?;
         }
-        for folder in ["", "basis", "figures"] {
+        for folder in ["", "basis", "figures", "work"] {
             sweep(&partial.join(folder))?;
         }
-        Ok(Self { target, partial, existing, _lock: lock })
+        Ok(Self { target, partial, existing, lock })
     }
 
     /// Where files go until the run is complete.
@@ -133,7 +133,11 @@ impl Workplace {
     /// # Errors
     /// [`DirectoryError::Io`].
     pub fn abandon(self) -> Result<(), DirectoryError> {
-        remove(&self.partial)
+        let Self { partial, lock, .. } = self;
+        clear(&partial)?;
+        // On some network file systems a folder in which a file is open cannot be removed.
+        drop(lock);
+        remove(&partial)
     }
 
     /// The run is complete: gives it its name, in the place of an older run where that was asked for.

@@ -162,7 +162,7 @@ pub enum FormatError {
 
 impl FormatError {
     /// For `map_err`: the system refused to `action` the file `path`.
-    pub(super) fn io<'a>(action: &'static str, path: &'a Path) -> impl Fn(io::Error) -> Self + 'a {
+    pub(crate) fn io<'a>(action: &'static str, path: &'a Path) -> impl Fn(io::Error) -> Self + 'a {
         move |source| Self::Io { action, path: path.to_owned(), source }
     }
 }

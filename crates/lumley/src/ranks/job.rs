@@ -12,7 +12,7 @@ use std::process::ExitCode;
 /// use lumley::ranks::{Job, launched_processes};
 /// if launched_processes() == 1 {
 ///     let job = Job::join()?;
-///     assert_eq!(job.ranks().count(), 1);
+///     assert_eq!((job.ranks().count(), job.neighbours()), (1, 1));
 ///     job.end(0);
 /// }
 /// # Ok::<(), lumley::ranks::RanksError>(())
@@ -46,6 +46,15 @@ impl Job {
             Self::Alone => &Alone,
             #[cfg(feature = "mpi")]
             Self::Mpi(ranks) => ranks,
+        }
+    }
+
+    /// How many of the processes, this one among them, share this machine and its memory.
+    pub fn neighbours(&self) -> usize {
+        match self {
+            Self::Alone => 1,
+            #[cfg(feature = "mpi")]
+            Self::Mpi(ranks) => ranks.neighbours(),
         }
     }
 

@@ -40,6 +40,7 @@ const PIECE: usize = 1 << 24;
 /// [`finalise`]: Self::finalise
 pub struct MpiRanks {
     world: SimpleCommunicator,
+    neighbours: usize,
     finished: bool,
     /// Finalises MPI when dropped.
     _universe: Universe,
@@ -65,7 +66,14 @@ impl MpiRanks {
         if started != joined {
             return Err(RanksError::Launcher { started, joined });
         }
-        Ok(Self { world, finished: false, _universe: universe, one_thread: PhantomData })
+        let neighbours = from_mpi(world.split_shared(world.rank()).size());
+        let (finished, one_thread) = (false, PhantomData);
+        Ok(Self { world, neighbours, finished, _universe: universe, one_thread })
+    }
+
+    /// How many ranks, this one among them, share the memory of one machine.
+    pub fn neighbours(&self) -> usize {
+        self.neighbours
     }
 
     /// Ends MPI; waits for every other rank to come here too.

@@ -35,20 +35,25 @@ pub struct Task {
     pub existing: Existing,
     /// Threads of the decomposition and of the reduced models.
     pub threads: usize,
-    /// Least time between checkpoints of the full-order model.
+    /// Processes, this one among them, that share the work and this machine's memory.
+    pub neighbours: usize,
+    /// Least time between checkpoints of the full-order model, or between notes of how far a decomposition
+    /// of snapshots alone is.
     pub checkpoint: Duration,
     /// What to type to get this again, for the manifest.
     pub command: String,
 }
 
 impl Task {
-    /// A run into `target` with all threads of this machine and a checkpoint every five seconds.
+    /// A run into `target` by this process alone, with all threads of this machine and a checkpoint every
+    /// five seconds.
     pub fn new(target: &Path, existing: Existing) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let command: Vec<String> = std::env::args().skip(1).collect();
         let command = format!("lumley {}", command.join(" "));
         let target = target.components().collect();
-        Self { target, existing, threads, checkpoint: Duration::from_secs(5), command }
+        let checkpoint = Duration::from_secs(5);
+        Self { target, existing, threads, neighbours: 1, checkpoint, command }
     }
 }
 

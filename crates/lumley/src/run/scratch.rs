@@ -27,7 +27,7 @@ impl Scratch {
             }
             Ok(file)
         };
-        let file = open().map_err(failed("create", path))?;
+        let file = open().map_err(FormatError::io("create", path))?;
         Ok(Self { path: path.to_owned(), file, columns })
     }
 
@@ -41,7 +41,7 @@ impl Scratch {
             .try_for_each(|(row, bytes)| {
                 write_all_at(&self.file, &bytes, self.place_of(first + row))
             })
-            .map_err(failed("write", &self.path))
+            .map_err(FormatError::io("write", &self.path))
     }
 
     /// Reads rows, and of these the first columns, as many as `out` has.
@@ -56,7 +56,7 @@ impl Scratch {
             let count = at_once.min(rows.end - first);
             let bytes = &mut bytes[..count * 8 * self.columns];
             read_exact_at(&self.file, bytes, self.place_of(first))
-                .map_err(failed("read", &self.path))?;
+                .map_err(FormatError::io("read", &self.path))?;
             self.spread(bytes, out.as_mut().subrows_mut(first - rows.start, count));
         }
         Ok(())
@@ -73,16 +73,12 @@ impl Scratch {
 
     /// Brings everything that was written to the disk.
     pub fn sync(&self) -> Result<(), FormatError> {
-        self.file.sync_data().map_err(failed("write", &self.path))
+        self.file.sync_data().map_err(FormatError::io("write", &self.path))
     }
 
     fn place_of(&self, row: usize) -> u64 {
         row as u64 * 8 * self.columns as u64
     }
-}
-
-fn failed<'a>(action: &'static str, path: &'a Path) -> impl Fn(io::Error) -> FormatError + 'a {
-    move |source| FormatError::Io { action, path: path.to_owned(), source }
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ mod bad_input;
 mod interrupted;
 mod pod;
 mod pod_faults;
+mod pod_resume;
 mod rom;
 mod run;
 mod update;

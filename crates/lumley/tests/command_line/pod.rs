@@ -186,6 +186,19 @@ fn a_pod_directory_is_no_run() {
     assert!(desk.lumley(&["info", "out/pod.npz"]).good().stdout.contains("modes"));
 }
 
+/// A run is named after its snapshots, also where these have no name of their own.
+#[test]
+fn a_run_has_the_name_of_the_snapshots() {
+    let desk = Desk::new();
+    desk.quick_run();
+    for (source, name) in [(".", "run-pod"), ("record", "record-pod"), ("record/..", "run-pod-2")] {
+        let mut command = desk.command(&["pod", source, "--modes", "2"]);
+        let output = command.current_dir(desk.path("run")).output().expect("lumley starts");
+        crate::Answer::of(&output).good();
+        assert!(desk.path(&format!("run/runs/{name}/pod.npz")).is_file(), "{source}");
+    }
+}
+
 /// A header that claims 10^18 numbers in a file of 200 bytes.
 #[test]
 fn a_hostile_header_is_refused() {

@@ -84,14 +84,14 @@ fn a_basis_that_does_not_fit_is_refused() {
     desk.lumley(&["pod", "x.npy", "--modes", "3", "-o", "old"]).good();
     write_matrix(desk.path("short.npy"), waves().subcols(0, 50)).expect("a file");
     write_vector(desk.path("w.npy"), &[2.0; 60]).expect("a file");
-    let forged = |name: &str, lambda: &[f64], rows: usize| {
+    let forged = |name: &str, lambda: &[f64], rows: usize, times: [f64; 2]| {
         let mut npz = NpzWriter::create(desk.path(name)).expect("a file");
         npz.matrix("modes", Mat::<f64>::identity(60, 2).as_ref()).expect("written");
         npz.matrix("coefficients", Mat::<f64>::zeros(rows, 2).as_ref()).expect("written");
         for array in ["eigenvalues", "singular_values", "spectrum"] {
             npz.vector(array, lambda).expect("written");
         }
-        for (array, values) in [("times", [0.0, 1.0]), ("time_weights", [0.5, 0.5])] {
+        for (array, values) in [("times", times), ("time_weights", [0.5, 0.5])] {
             npz.vector(array, &values).expect("written");
         }
         for array in ["noise_floor", "total_energy"] {
@@ -99,10 +99,20 @@ fn a_basis_that_does_not_fit_is_refused() {
         }
         npz.finish().expect("written");
     };
-    forged("negative.npz", &[1.0, -1.0], 2);
-    forged("three.npz", &[2.0, 1.0, 0.5], 2);
-    forged("rows.npz", &[2.0, 1.0], 3);
-    let table: [(&[&str], &[&str]); 11] = [
+    forged("negative.npz", &[1.0, -1.0], 2, [0.0, 1.0]);
+    forged("three.npz", &[2.0, 1.0, 0.5], 2, [0.0, 1.0]);
+    forged("rows.npz", &[2.0, 1.0], 3, [0.0, 1.0]);
+    forged("never.npz", &[2.0, 1.0], 2, [0.0, f64::NAN]);
+    forged("back.npz", &[2.0, 1.0], 2, [1.0, 1.0]);
+    let times: Vec<f64> = (0..40).map(|k| 0.01 * f64::from(k)).collect();
+    write_vector(desk.path("t.npy"), &times).expect("a file");
+    let table: [(&[&str], &[&str]); 14] = [
+        (&["x.npy", "--update", "never.npz"], &["never.npz", "array times", "increasing"]),
+        (&["x.npy", "--update", "back.npz"], &["back.npz", "array times", "increasing"]),
+        (
+            &["x.npy", "--update", "old", "--times", "t.npy"],
+            &["--times t.npy from 0 s on", "after those of the old basis, which ends at 39 s"],
+        ),
         (&["short.npy", "--update", "old"], &["short.npy", "50 unknowns", "modes have 60"]),
         (&["x.npy", "--update", "x.npy"], &["x.npy", "NPZ archive"]),
         (&["x.npy", "--update", "none"], &["none"]),
@@ -122,6 +132,21 @@ fn a_basis_that_does_not_fit_is_refused() {
         assert!(!desk.path("out.partial").exists(), "{arguments:?}");
     }
     assert!(desk.path("old/pod.npz").is_file());
+}
+
+/// Numbers stand in the place of times: none comes twice, also where an old snapshot was left out.
+#[test]
+fn times_go_on_from_the_last_old_one() {
+    let desk = desk_with_waves();
+    part(&desk, "b.npy", 25..40);
+    let mut a = waves().subrows(0, 25).to_owned();
+    a[(3, 7)] = f64::INFINITY;
+    write_matrix(desk.path("a.npy"), a.as_ref()).expect("a file");
+    desk.lumley(&["pod", "a.npy", "--skip-non-finite", "--modes", "3", "-o", "old"]).good();
+    desk.lumley(&["pod", "b.npy", "--update", "old", "--modes", "3", "-o", "new"]).good();
+    let npz = NpzReader::open(desk.path("new/pod.npz")).expect("a file");
+    let expected: Vec<f64> = (0..40).filter(|k| *k != 3).map(f64::from).collect();
+    assert_eq!(npz.vector("times").expect("times"), expected);
 }
 
 /// An unfinished update goes on with the old basis that it was begun with, and with no other.

@@ -22,13 +22,17 @@ fn a_resumed_run_is_swept() {
     for kept in ["checkpoint", ".notes.tmp", "record/.c.1-0.tmp"] {
         desk.write(&format!("run.partial/{kept}"), b"");
     }
-    for half in [".checkpoint.71-4.tmp", "basis/.fixed.npz.71-5.tmp"] {
+    for half in [".checkpoint.71-4.tmp", "basis/.fixed.npz.71-5.tmp", "work/.1-modes.sum.71-6.tmp"]
+    {
         desk.write(&format!("run.partial/{half}"), b"half");
     }
     let _place = desk.claim("run", RESUME);
-    let left = [".lumley-lock", ".notes.tmp", "basis", "checkpoint", "manifest.json", "record"];
+    let left =
+        [".lumley-lock", ".notes.tmp", "basis", "checkpoint", "manifest.json", "record", "work"];
     assert_eq!(desk.names("run.partial"), left);
-    assert!(desk.names("run.partial/basis").is_empty());
+    for swept in ["basis", "work"] {
+        assert!(desk.names(&format!("run.partial/{swept}")).is_empty(), "{swept}");
+    }
     assert_eq!(desk.names("run.partial/record"), [".c.1-0.tmp"], "the record sweeps its own");
 }
 

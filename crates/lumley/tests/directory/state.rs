@@ -19,7 +19,18 @@ fn an_unfinished_run_is_not_complete() {
     desk.manifest("run.partial", false);
     let answer = completed(&desk.path("run.partial")).expect_err("unfinished").to_string();
     assert!(answer.contains("is an unfinished run"), "{answer}");
-    assert!(answer.contains("lumley run --resume"), "{answer}");
+    assert!(answer.contains("--resume"), "{answer}");
+}
+
+/// What nobody can go on with leaves nothing in the way of the next.
+#[test]
+fn an_abandoned_run_is_gone() {
+    let desk = Desk::new();
+    let place = desk.claim("run", NEW);
+    place.write("work/1-correlation.sum", b"").expect("written");
+    place.abandon().expect("removed");
+    assert!(desk.names("").is_empty());
+    desk.run("run", "next", NEW);
 }
 
 #[test]

@@ -18,16 +18,19 @@ const PROGRAMS: [(&str, Program); 4] = [
     ("leave", leave_on_rank_1),
 ];
 
-const TESTS: [(&str, fn()); 10] = [
+const TESTS: [(&str, fn()); 13] = [
     ("messages arrive whole and in order", messages_arrive_whole_and_in_order),
     ("a panic ends the job", a_panic_ends_the_job),
     ("an error ends the job with its status", an_error_ends_the_job_with_its_status),
     ("a rank that leaves ends the job", a_rank_that_leaves_ends_the_job),
     ("a foreign launcher is noticed", a_foreign_launcher_is_noticed),
     ("any number of ranks gives the same bytes", pod::any_number_of_ranks_gives_the_same_bytes),
+    ("any number of ranks updates a basis", pod::any_number_of_ranks_updates_a_basis),
     ("a missing file ends the job", pod::a_missing_file_ends_the_job),
     ("a full disk under one rank is kept", pod::a_full_disk_under_one_rank_is_kept_for_resume),
     ("a killed job resumes", pod::a_killed_job_resumes),
+    ("what all ranks see is said once", pod::what_all_ranks_see_is_said_once),
+    ("each rank checks its weights", pod::each_rank_checks_a_share_of_the_weights),
     ("other commands refuse", pod::other_commands_refuse),
 ];
 
@@ -88,6 +91,7 @@ fn a_foreign_launcher_is_noticed() {
 const LENGTHS: [usize; 6] = [0, 1, 1000, 1 << 24, (1 << 24) + 1, 40_000_000];
 
 fn exchange(job: Job) -> ExitCode {
+    assert_eq!(job.neighbours(), job.ranks().count(), "all of them are on this machine");
     up_the_tree(job.ranks());
     down_the_tree(job.ranks());
     job.end(0)

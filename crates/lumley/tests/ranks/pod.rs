@@ -70,6 +70,17 @@ pub fn any_number_of_ranks_gives_the_same_bytes() {
     }
 }
 
+/// Of the old basis, whose mean was subtracted, one rank reads all and the others their rows.
+pub fn any_number_of_ranks_updates_a_basis() {
+    let desk = desk(20_011);
+    good(&finished(desk.path(), 1, &format!("{POD} --center -o old")));
+    let update = "exec \"$0\" pod x.npy --weights w.npy --update old --modes 6 --threads 1";
+    for count in [1, 3] {
+        good(&finished(desk.path(), count, &format!("{update} -o {count}")));
+    }
+    assert!(modes(desk.path(), "1") == modes(desk.path(), "3"), "other modes");
+}
+
 /// One rank without its file ends the job, and says which file; so do all of them, once.
 pub fn a_missing_file_ends_the_job() {
     let desk = desk(100);
@@ -99,25 +110,67 @@ fn modes(desk: &Path, out: &str) -> Vec<u8> {
 pub fn a_killed_job_resumes() {
     let desk = desk(200_003);
     good(&finished(desk.path(), 1, &format!("{POD} -o whole")));
-    for (count, entry) in [(4, "1-correlation-1-of-4"), (4, "2-refinement-3-of-4"), (2, "3-modes")]
-    {
-        kill_at(desk.path(), entry);
-        good(&finished(desk.path(), count, &format!("{POD} -o out --resume")));
+    let table = [
+        (1, 4, "1-sketch-1-of-4"),
+        (0, 4, "1-sketch-0-of-4"),
+        (1, 4, "2-refinement-3-of-4"),
+        (0, 2, "2-refinement"),
+        (1, 2, "3-modes"),
+    ];
+    for (rank, count, entry) in table {
+        kill_at(desk.path(), rank, entry);
+        // After the last pass, what is left may be done before the job is.
+        if desk.path().join("out.partial").exists() {
+            good(&finished(desk.path(), count, &format!("{POD} -o out --resume")));
+        }
         assert!(modes(desk.path(), "out") == modes(desk.path(), "whole"), "killed at {entry}");
         fs::remove_dir_all(desk.path().join("out")).expect("removed");
     }
+    // It was killed as it was about to take its name: the summary is that of the whole run.
+    fs::rename(desk.path().join("whole"), desk.path().join("out.partial")).expect("renamed");
+    let output = finished(desk.path(), 3, &format!("{POD} -o out --resume"));
+    good(&output);
+    assert!(String::from_utf8_lossy(&output.stdout).contains("6 modes"), "{output:?}");
+    assert_eq!(stderr(&output), "", "nothing is computed");
 }
 
-/// A job of four ranks, of which one is killed as soon as the journal has this entry.
-fn kill_at(desk: &Path, entry: &str) {
+/// A job of four ranks, of which this one is killed as soon as the journal has this entry.
+fn kill_at(desk: &Path, rank: usize, entry: &str) {
     // The shell's number, `$$`, is lumley's after exec.
     let kill = format!("[ -e out.partial/work/{entry}.sum ] && kill -9 $$");
     let watch = format!("(while kill -0 $$ 2>/dev/null; do {kill}; done) &");
     let pod = format!("{POD} --checkpoint 0 -o out");
-    let output =
-        finished(desk, 4, &format!("[ $OMPI_COMM_WORLD_RANK = 1 ] && {{ {watch} }}; {pod}"));
+    let one = format!("[ $OMPI_COMM_WORLD_RANK = {rank} ] && {{ {watch} }}");
+    let output = finished(desk, 4, &format!("{one}; {pod}"));
     assert!(!output.status.success(), "not killed at {entry}: {}", stderr(&output));
-    assert!(desk.join("out.partial").exists(), "killed at {entry}: {}", stderr(&output));
+}
+
+/// What is wrong for all of them is said once.
+pub fn what_all_ranks_see_is_said_once() {
+    let desk = desk(20_011);
+    write_matrix(desk.path().join("zero.npy"), Mat::<f64>::zeros(4, 5000).as_ref()).expect("zeros");
+    let table: [(&str, &[&str]); 4] = [
+        ("x.npy --modes 0", &["--modes 0", "at least 1"]),
+        ("x.npy --method direct", &["3 ranks share the rows"]),
+        ("x.npy --memory 1kB", &["the limit is 1000"]),
+        ("zero.npy", &["zero.npy", "no energy"]),
+    ];
+    for (arguments, words) in table {
+        refused(desk.path(), 3, &format!("exec \"$0\" pod {arguments} -o out"), words);
+        assert!(!desk.path().join("out.partial").exists(), "{arguments}");
+    }
+}
+
+/// A weight that cannot be is found by the rank whose share it is in.
+pub fn each_rank_checks_a_share_of_the_weights() {
+    let desk = desk(20_011);
+    for (index, rank) in [(0, 0), (9_999, 1), (20_010, 3)] {
+        let mut weights = vec![1.0; 20_011];
+        weights[index] = -1.0;
+        write_vector(desk.path().join("w.npy"), &weights).expect("a file");
+        let words = [&format!("rank {rank}: "), "w.npy", &format!("weight {index}")];
+        refused(desk.path(), 4, &format!("{POD} -o out"), &words);
+    }
 }
 
 /// Commands that cannot share their work say so, once.

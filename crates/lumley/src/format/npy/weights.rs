@@ -40,17 +40,42 @@ impl NpyWeights {
     /// [`FormatError`] as for [`NpyMatrix::open`], for a matrix that is not a vector, and
     /// [`FormatError::Weights`] for the first weight that is not positive and finite.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, FormatError> {
+        Self::open_share(path, 0, 1)
+    }
+
+    /// As [`open`](Self::open), by one of `count` processes that share the work: number `rank` reads and checks
+    /// a share of the weights, and they can be relied on once every process has found its share right.
+    ///
+    /// # Errors
+    /// As for [`open`](Self::open).
+    ///
+    /// # Panics
+    /// Unless `rank < count`.
+    pub fn open_share(
+        path: impl AsRef<Path>,
+        rank: usize,
+        count: usize,
+    ) -> Result<Self, FormatError> {
+        assert!(rank < count, "process {rank} of {count}");
         let file = NpyMatrix::open(path)?;
         let nodes = file.vector_length()?;
         let weights = Self { file, nodes, components: 1 };
-        weights.visit(0..nodes, |first, part| {
+        let share = nodes.div_ceil(count);
+        let first = share.saturating_mul(rank).min(nodes);
+        weights.check(first..first.saturating_add(share).min(nodes))?;
+        Ok(weights)
+    }
+
+    /// Whether the weights of `nodes` are positive and finite.
+    fn check(&self, nodes: Range<usize>) -> Result<(), FormatError> {
+        let from = nodes.start;
+        self.visit(nodes, |first, part| {
             let bad = part.iter().position(|w| !(*w > 0.0 && w.is_finite()));
             bad.map_or(Ok(()), |i| {
-                let source = InnerProductError::Weight { index: first + i, value: part[i] };
-                Err(FormatError::Weights { path: weights.file.path().to_owned(), source })
+                let source = InnerProductError::Weight { index: from + first + i, value: part[i] };
+                Err(FormatError::Weights { path: self.file.path().to_owned(), source })
             })
-        })?;
-        Ok(weights)
+        })
     }
 
     /// The same weights for each of so many components.

@@ -60,7 +60,7 @@ impl Journal for FileJournal {
 }
 
 fn failed<'a>(action: &'static str, path: &'a Path) -> impl Fn(io::Error) -> io::Error + 'a {
-    move |source| io::Error::other(FormatError::Io { action, path: path.to_owned(), source })
+    move |source| io::Error::other(FormatError::io(action, path)(source))
 }
 
 fn damaged(path: &Path) -> io::Error {

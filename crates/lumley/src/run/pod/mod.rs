@@ -1,19 +1,21 @@
 //! `lumley pod`: the decomposition of snapshots by themselves, of any size, by any number of machines.
 
+mod inputs;
 mod journal;
 mod old;
 mod open;
+mod place;
 mod watch;
 
 use super::decompose::{algorithm, headline, summary_of, warnings};
-use super::modes::{FileModes, SCRATCH, drawn};
+use super::modes::{FileModes, drawn};
 use super::pipeline::Task;
 use super::report::{columns, provenance, save};
 use crate::Error;
 use crate::case::PodChoice;
-use crate::directory::{self, Workplace};
+use crate::directory;
 use crate::format::npy::SnapshotLayout;
-use crate::manifest::{MANIFEST, Manifest, ManifestError, memory};
+use crate::manifest::{MANIFEST, Manifest, memory};
 use crate::progress::Progress;
 use crate::ranks::together;
 use crate::report::{FieldGrid, PodReport};
@@ -24,6 +26,7 @@ use lumley_pod::{
 };
 use old::OldFile;
 use open::{Opened, unequal};
+use place::WORK;
 use std::path::{Path, PathBuf};
 use watch::Passes;
 
@@ -62,7 +65,8 @@ pub struct PodInput {
     pub components: usize,
     /// Algorithm and number of modes.
     pub choice: PodChoice,
-    /// Most memory that the decomposition may take, in bytes; by default a quarter of the machine's.
+    /// Most memory that this process may take for the decomposition, in bytes; by default a quarter of the
+    /// machine's, shared with its neighbours.
     pub memory: Option<u64>,
     /// Whether snapshots that hold NaN or infinity are left out; else they are an error.
     pub skip_non_finite: bool,
@@ -70,9 +74,6 @@ pub struct PodInput {
     /// those it was made of and of these. The method is `incremental` then.
     pub update: Option<PathBuf>,
 }
-
-/// Folder of a run for what a resumed decomposition needs; it goes when the run is complete.
-const WORK: &str = "work";
 
 /// POD of snapshots alone: writes `pod.npz`, `summary.json`, `report.html` and figures. Every rank calls
 /// it; rank 0 writes what is not the modes, and has the summary.
@@ -87,83 +88,42 @@ pub fn decompose_snapshots(
     ranks: &dyn Ranks,
     progress: &mut Progress,
 ) -> Result<(PathBuf, Summary), Error> {
-    let opened = together(ranks, input.open(&task.target))?;
-    let first = ranks.rank() == 0;
-    let place = if first { claim(input, task).map(Some) } else { Ok(None) };
+    let opened = together(ranks, input.open(&task.target, ranks))?;
+    let is_first = ranks.rank() == 0;
+    let place = if is_first { place::claim(input, task).map(Some) } else { Ok(None) };
     let place = together(ranks, place)?;
-    let folder = directory::partial(&task.target);
-    let done = decompose_into(input, &opened, task, &folder, ranks, progress);
-    let left = match (place, &done) {
-        (Some(place), Ok(_)) => finish(place),
-        (Some(place), Err(error)) if !is_worth_resuming(error, &folder) => {
-            place.abandon().map_err(Error::from)
-        }
-        _ => Ok(()),
+    let done = match place::complete(ranks, place.as_ref())? {
+        Some(summary) => Ok(summary),
+        None => together(ranks, decompose_into(input, &opened, task, ranks, progress)),
     };
-    together(ranks, left)?;
-    Ok((task.target.clone(), done?))
-}
-
-/// The run directory; one that is taken up again must have been begun with the same snapshots.
-fn claim(input: &PodInput, task: &Task) -> Result<Workplace, Error> {
-    let mut manifest = Manifest::new(&input.path.display().to_string(), &task.command);
-    manifest.inputs = input.inputs()?;
-    let place = Workplace::claim(&task.target, task.existing)?;
-    manifest.settings = input.settings();
-    if place.resumed() && !begun_with(&place, &manifest)? {
-        return Err(Error::OtherSnapshots { path: place.path().to_owned() });
-    }
-    place.write(MANIFEST, manifest.to_json().as_bytes())?;
-    place.folder(WORK)?;
-    Ok(place)
-}
-
-/// Whether the unfinished decomposition was begun with what `manifest` says, or killed before it said.
-fn begun_with(place: &Workplace, manifest: &Manifest) -> Result<bool, Error> {
-    let what = |m: &Manifest| (m.version.clone(), m.inputs.clone(), m.settings.clone());
-    match Manifest::read(place.path()) {
-        Ok(begun) => Ok(what(&begun) == what(manifest)),
-        Err(ManifestError::Missing { .. }) => Ok(true),
-        Err(error) => Err(directory::DirectoryError::from(error).into()),
-    }
-}
-
-/// What failed may go on where the medium was to blame and a pass was under way.
-fn is_worth_resuming(error: &Error, folder: &Path) -> bool {
-    let entries = std::fs::read_dir(folder.join(WORK)).into_iter().flatten().flatten();
-    error.is_of_medium() && entries.count() > 0
-}
-
-/// The journal goes first: while there is one, what it counts on is there too.
-fn finish(place: Workplace) -> Result<(), Error> {
-    place.remove(WORK)?;
-    place.remove(SCRATCH)?;
-    place.finish()?;
-    Ok(())
+    let left = place.map_or(Ok(()), |place| place::leave(place, &done));
+    let left = together(ranks, left);
+    // What failed first is said first.
+    let summary = done?;
+    left?;
+    Ok((task.target.clone(), summary))
 }
 
 fn decompose_into(
     input: &PodInput,
     opened: &Opened,
     task: &Task,
-    folder: &Path,
     ranks: &dyn Ranks,
     progress: &mut Progress,
 ) -> Result<Summary, Error> {
     progress.begin("pod", 1);
+    let folder = &directory::partial(&task.target);
     let modes = FileModes::new(folder);
     let journal = FileJournal::new(&folder.join(WORK), task.checkpoint, task.existing.resume);
-    let watch = Passes::new(progress);
-    let execution = Execution { ranks, journal: &journal, watch: &watch };
-    let mut options = Options { residuals: true, ..input.options(opened, task, ranks) };
-    let selection = input.selection(opened, &mut options, execution)?;
-    let x: &dyn SnapshotSource = &selection;
-    let w = opened.product.as_ref();
-    let found = match &opened.old {
-        Some(old) => old.updated(x, opened, &options, execution, &modes),
-        None => (algorithm(&input.choice.method).stream)(x, w, &options, execution, &modes),
-    };
-    let found = found.map_err(Error::pod(&input.path))?;
+    let execution = Execution { ranks, journal: &journal, ..Execution::default() };
+    let mut options = Options { residuals: true, ..input.options(opened, task) };
+    let selection = input.selection(opened, &mut options, execution, progress)?;
+    let x = selection.as_ref().map_or(opened.snapshots.as_ref(), |some| some);
+    let before = usize::from(selection.is_some());
+    let watch = Passes::new(progress, before);
+    let execution = Execution { watch: &watch, ..execution };
+    let mut found = input.stream(x, opened, &options, execution, &modes)?;
+    found.passes += before;
     modes.finish(ranks, &found)?;
     let seconds =
         progress.end(&format!("{} in {} passes", headline(&found, found.size()), found.passes));
@@ -171,23 +131,17 @@ fn decompose_into(
     summary.warnings.extend(left_out(opened, &found));
     summary.directory = task.target.display().to_string();
     progress.warn(&summary.warnings);
-    let written = if ranks.rank() == 0 {
-        input.write(folder, opened, &found, &summary, seconds)
-    } else {
-        Ok(())
-    };
-    together(ranks, written)?;
+    if ranks.rank() == 0 {
+        input.write(folder, opened, &found, &summary, seconds)?;
+    }
     Ok(summary)
 }
 
 impl PodInput {
-    fn options(&self, opened: &Opened, task: &Task, ranks: &dyn Ranks) -> Options {
+    fn options(&self, opened: &Opened, task: &Task) -> Options {
         let threads = std::num::NonZero::new(task.threads).filter(|n| n.get() > 1);
         let par = threads.map_or(faer::Par::Seq, faer::Par::Rayon);
-        // Ranks of one machine share its memory; more than it has cores are on others.
-        let neighbours =
-            ranks.count().min(std::thread::available_parallelism().map_or(1, usize::from));
-        let quarter = memory() / 4.0 / neighbours as f64;
+        let quarter = memory() / 4.0 / task.neighbours as f64;
         #[allow(
             clippy::cast_possible_truncation,
             clippy::cast_sign_loss,
@@ -199,31 +153,45 @@ impl PodInput {
         Options { truncation, center, time_weights, par, memory_limit, residuals: false }
     }
 
-    /// What must be the same for a decomposition to go on, beside its inputs.
-    fn settings(&self) -> String {
-        let Self { path, layout, components, choice, skip_non_finite, .. } = self;
-        let modified = std::fs::metadata(path).and_then(|metadata| metadata.modified()).ok();
-        format!("{layout:?} {components} {choice:?} {skip_non_finite} {modified:?}")
-    }
-
-    /// The snapshots, less those that are to be left out; the others are weighed anew.
+    /// Where some snapshots may have to be left out, those that stay, found in one pass; they are weighed
+    /// anew.
     fn selection<'o>(
         &self,
         opened: &'o Opened,
         options: &mut Options,
         execution: Execution<'_>,
-    ) -> Result<Selection<'o>, Error> {
-        let x = opened.snapshots.as_ref();
-        let count = x.times().len();
+        progress: &mut Progress,
+    ) -> Result<Option<Selection<'o>>, Error> {
         if !self.skip_non_finite {
-            return Ok(Selection::new(x, (0..count).collect()));
+            return Ok(None);
         }
+        let x = opened.snapshots.as_ref();
+        let watch = Passes::new(progress, 0);
+        let execution = Execution { watch: &watch, ..execution };
         let finite = finite_snapshots(x, options, execution).map_err(Error::pod(&self.path))?;
         let selection = Selection::new(x, finite);
-        if opened.timed && selection.times().len() < count {
+        if opened.timed && selection.times().len() < x.times().len() {
             options.time_weights = unequal(selection.times());
         }
-        Ok(selection)
+        Ok(Some(selection))
+    }
+
+    /// The decomposition of `x`, and of the old snapshots where there are some.
+    fn stream(
+        &self,
+        x: &dyn SnapshotSource,
+        opened: &Opened,
+        options: &Options,
+        execution: Execution<'_>,
+        modes: &FileModes,
+    ) -> Result<Decomposition, Error> {
+        let found = if let Some(old) = &opened.old {
+            old.updated(x, opened, options, execution, modes)
+        } else {
+            let stream = algorithm(&self.choice.method).stream;
+            stream(x, opened.product.as_ref(), options, execution, modes)
+        };
+        found.map_err(Error::pod(&self.path))
     }
 
     fn summary(&self, opened: &Opened, found: &Decomposition) -> Summary {

@@ -3,14 +3,14 @@
 use super::PodInput;
 use super::open::Opened;
 use crate::Error;
-use crate::directory::partial;
 use crate::format::npy::NpyMatrix;
 use crate::format::npz::NpzReader;
 use crate::run::FileModes;
 use crate::run::basis::{MEAN, MODES, misshapen, read_small};
 use faer::MatMut;
 use lumley_pod::{
-    Decomposition, Execution, ModeSource, OldBasis, Options, PodError, SnapshotSource, update,
+    Decomposition, Execution, ModeSource, OldBasis, Options, PodError, Ranks, SnapshotSource,
+    update,
 };
 use std::io;
 use std::ops::Range;
@@ -30,8 +30,8 @@ impl PodInput {
         Some(if path.is_dir() { path.join("pod.npz") } else { path.clone() })
     }
 
-    /// The old basis, which the run at `target` does not replace.
-    pub(super) fn open_old(&self, target: &Path) -> Result<Option<OldFile>, Error> {
+    /// The old basis, where there is one.
+    pub(super) fn open_old(&self, ranks: &dyn Ranks) -> Result<Option<OldFile>, Error> {
         let Some(path) = self.old_path() else { return Ok(None) };
         let refuse = |argument, value: &str, expected: &str| {
             Err(Error::Argument { argument, value: value.into(), expected: expected.into() })
@@ -39,14 +39,12 @@ impl PodInput {
         if self.choice.method != "incremental" {
             return refuse("--method", &self.choice.method, "incremental, as --update is given");
         }
-        let old = OldFile::open(&path)?;
+        let old = OldFile::open(&path, ranks)?;
         let update = path.display().to_string();
-        if is_part_of(&path, target) {
-            return refuse("--update", &update, "a basis outside of the run that it makes");
-        }
         if let Some(array) = old.damaged() {
-            let expected =
-                format!("finite numbers in its array {array}, and no negative energy or weight");
+            let expected = format!(
+                "finite numbers in its array {array}, no negative energy or weight, and increasing times"
+            );
             return refuse("--update", &update, &expected);
         }
         if self.choice.center && old.mean.is_none() {
@@ -54,6 +52,23 @@ impl PodInput {
             return refuse("--update", &update, expected);
         }
         Ok(Some(old))
+    }
+
+    /// Whether the new snapshots, at `times` of their own, come after the old ones.
+    pub(super) fn check_order(&self, old: &OldFile, times: &[f64]) -> Result<(), Error> {
+        let Some((first, last)) = times.first().zip(old.decomposition.times.last()) else {
+            return Ok(());
+        };
+        if first > last {
+            return Ok(());
+        }
+        let (argument, path) =
+            self.times.as_ref().map_or(("snapshots", &self.path), |path| ("--times", path));
+        Err(Error::Argument {
+            argument,
+            value: format!("{} from {first} s on", path.display()),
+            expected: format!("times after those of the old basis, which ends at {last} s"),
+        })
     }
 
     /// Whether the mean is subtracted: where it was from old snapshots, it is from these.
@@ -69,20 +84,15 @@ impl PodInput {
     }
 }
 
-/// Whether `file` lies in the run at `target`, finished or not, by whatever name.
-fn is_part_of(file: &Path, target: &Path) -> bool {
-    let Ok(file) = file.canonicalize() else { return false };
-    let folders = [target.to_owned(), partial(target)];
-    folders.iter().filter_map(|path| path.canonicalize().ok()).any(|path| file.starts_with(path))
-}
-
 impl OldFile {
-    fn open(path: &Path) -> Result<Self, Error> {
+    fn open(path: &Path, ranks: &dyn Ranks) -> Result<Self, Error> {
         let npz = NpzReader::open(path)?;
         // Their checksum would take a pass over them; the update looks whether they are orthonormal.
         let modes = npz.unchecked(MODES)?;
         let has_mean = npz.names().any(|name| name == MEAN);
-        let mean = if has_mean { Some(npz.matrix(MEAN)?) } else { None };
+        // One rank reads all of the mean, for its checksum; the others read their rows alone.
+        let open = if ranks.rank() == 0 { NpzReader::matrix } else { NpzReader::unchecked };
+        let mean = if has_mean { Some(open(&npz, MEAN)?) } else { None };
         if let Some(mean) = mean.as_ref().filter(|m| (m.rows(), m.cols()) != (modes.rows(), 1)) {
             return Err(misshapen(mean, "one number for each row of the modes").into());
         }
@@ -101,7 +111,11 @@ impl OldFile {
         ];
         let sound = |values: &[f64]| values.iter().all(|x| x.is_finite() && *x >= 0.0);
         let first = arrays.into_iter().find(|(_, values)| !sound(values)).map(|(name, _)| name);
-        first.or_else(|| (!found.coefficients.is_all_finite()).then_some("coefficients"))
+        let times = &found.times;
+        let ordered = times.iter().all(|t| t.is_finite()) && times.is_sorted_by(|a, b| a < b);
+        first
+            .or_else(|| (!found.coefficients.is_all_finite()).then_some("coefficients"))
+            .or_else(|| (!ordered).then_some("times"))
     }
 
     /// The decomposition of the old snapshots and of `x`, which are those opened, or some of them.
@@ -116,9 +130,10 @@ impl OldFile {
         let old = OldBasis { decomposition: &self.decomposition, modes: self };
         let mut found = update(old, x, opened.product.as_ref(), options, execution, modes)?;
         if !opened.timed {
-            // Numbers in the place of times go on from the old snapshots.
+            // Numbers in the place of times go on from the last old one; some may have been left out.
+            let next = self.decomposition.times.last().map_or(0.0, |last| last + 1.0);
             for number in &mut found.times[self.snapshots()..] {
-                *number += self.snapshots() as f64;
+                *number += next;
             }
         }
         Ok(found)

@@ -3,15 +3,13 @@
 use super::PodInput;
 use super::old::OldFile;
 use crate::Error;
-use crate::directory::DirectoryError;
 use crate::format::npy::{NpySnapshots, NpyWeights, SnapshotLayout, read_vector};
-use crate::manifest::Input;
 use crate::record::{Record, Support};
 use crate::report::FieldGrid;
 use crate::run::ground::grid_product;
 use lumley_pod::time_weights::trapezoid;
-use lumley_pod::{Identity, InnerProduct, SnapshotSource};
-use std::path::{Path, PathBuf};
+use lumley_pod::{Identity, InnerProduct, Ranks, SnapshotSource};
+use std::path::Path;
 
 /// Snapshots, their inner product and the words for it.
 pub(super) struct Opened {
@@ -28,29 +26,23 @@ pub(super) struct Opened {
 }
 
 impl PodInput {
+    /// Each rank looks at its own share of what is long; all of them must then agree.
+    ///
     /// * `target`: the run that is made
-    pub(super) fn open(&self, target: &Path) -> Result<Opened, Error> {
-        let old = self.open_old(target)?;
-        let inner = self.path.join("record");
-        let record = if inner.is_dir() { &inner } else { &self.path };
-        let of_record = record.join("zarr.json").is_file();
-        let opened = if of_record { self.open_record(record) } else { self.open_npy() }?;
+    pub(super) fn open(&self, target: &Path, ranks: &dyn Ranks) -> Result<Opened, Error> {
+        self.check_outside(target)?;
+        let old = self.open_old(ranks)?;
+        let opened = match self.record() {
+            Some(record) => self.open_record(&record, ranks)?,
+            None => self.open_npy(ranks)?,
+        };
+        if let Some(old) = old.as_ref().filter(|_| opened.timed) {
+            self.check_order(old, opened.snapshots.times())?;
+        }
         Ok(Opened { old, ..opened })
     }
 
-    /// The files that were read, by name, length and checksum.
-    pub(super) fn inputs(&self) -> Result<Vec<Input>, Error> {
-        let old = self.old_path();
-        let files = [Some(&self.path), self.weights.as_ref(), self.times.as_ref(), old.as_ref()];
-        let files = files.into_iter().flatten().filter(|path| path.is_file());
-        let input = |path: &PathBuf| {
-            let failed = |source| DirectoryError::Io { action: "read", path: path.clone(), source };
-            Ok(Input::of_file(path).map_err(failed)?)
-        };
-        files.map(input).collect()
-    }
-
-    fn open_npy(&self) -> Result<Opened, Error> {
+    fn open_npy(&self, ranks: &dyn Ranks) -> Result<Opened, Error> {
         let mut snapshots = NpySnapshots::open(&self.path, self.layout)?;
         if let Some(times) = &self.times {
             snapshots = snapshots.with_times(read_vector(times)?)?;
@@ -71,7 +63,7 @@ impl PodInput {
                 expected: format!("as many numbers as a snapshot has: {unknowns}"),
             });
         }
-        let (product, inner_product) = self.product(unknowns, self.components)?;
+        let (product, inner_product) = self.product(unknowns, self.components, ranks)?;
         let time_weights = match &self.times {
             Some(_) => unequal(snapshots.times()),
             None => None,
@@ -81,7 +73,7 @@ impl PodInput {
         Ok(Opened { snapshots, timed, time_weights, product, inner_product, grid, old: None })
     }
 
-    fn open_record(&self, path: &Path) -> Result<Opened, Error> {
+    fn open_record(&self, path: &Path, ranks: &dyn Ranks) -> Result<Opened, Error> {
         let given = [("--times", self.times.is_some()), ("--grid", self.grid.is_some())];
         let others = [
             ("--snapshots columns", self.layout == SnapshotLayout::Columns),
@@ -100,7 +92,7 @@ impl PodInput {
         let snapshots = record.frame(&frame.name)?;
         let unknowns = snapshots.dim();
         let components = frame.components.len();
-        let (mut product, mut inner_product) = self.product(unknowns, components)?;
+        let (mut product, mut inner_product) = self.product(unknowns, components, ranks)?;
         let mut field_grid = None;
         if let Support::Grid(grid) = &frame.support {
             let [nx, ny] = grid.nodes();
@@ -121,11 +113,12 @@ impl PodInput {
         &self,
         unknowns: usize,
         components: usize,
+        ranks: &dyn Ranks,
     ) -> Result<(Box<dyn InnerProduct>, String), Error> {
         let Some(path) = &self.weights else {
             return Ok((Box::new(Identity::new(unknowns)), "identity".into()));
         };
-        let weights = NpyWeights::open(path)?;
+        let weights = NpyWeights::open_share(path, ranks.rank(), ranks.count())?;
         let product = match weights.dim() {
             n if n == unknowns => weights,
             n if n.checked_mul(components) == Some(unknowns) => weights.repeated(components),

@@ -6,13 +6,16 @@ use std::time::Instant;
 /// Shows a decomposition's passes over the data.
 pub(super) struct Passes<'p> {
     progress: RefCell<&'p mut Progress>,
+    /// Passes over the snapshots that are not counted with these.
+    before: usize,
     /// When the pass began, and with how many rows.
     begun: Cell<(Instant, usize)>,
 }
 
 impl<'p> Passes<'p> {
-    pub fn new(progress: &'p mut Progress) -> Self {
-        Self { progress: RefCell::new(progress), begun: Cell::new((Instant::now(), 0)) }
+    /// * `before`: passes over the snapshots that were made for something else
+    pub fn new(progress: &'p mut Progress, before: usize) -> Self {
+        Self { progress: RefCell::new(progress), before, begun: Cell::new((Instant::now(), 0)) }
     }
 }
 
@@ -26,7 +29,8 @@ impl Watch for Passes<'_> {
         let (begun, first) = self.begun.get();
         let rate = pass.bytes(rows - first) as f64 / 1e6 / begun.elapsed().as_secs_f64().max(1e-9);
         let data = if pass.over_snapshots {
-            format!("pass {} over the snapshots ({})", pass.number, pass.name)
+            let number = self.before + pass.number;
+            format!("pass {number} over the snapshots ({})", pass.name)
         } else {
             pass.name.to_owned()
         };
