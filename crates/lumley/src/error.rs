@@ -41,7 +41,7 @@ pub enum Error {
     #[error(transparent)]
     Step(#[from] StepError),
     /// The decomposition failed.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}{}", path.display(), help(source))]
     Pod {
         /// The snapshots.
         path: PathBuf,
@@ -130,6 +130,14 @@ pub enum Error {
         /// All rows.
         rows: usize,
     },
+}
+
+/// What the command can do about it.
+fn help(error: &PodError) -> &'static str {
+    match error {
+        PodError::NonFinite { .. } => "\n  help: --skip-non-finite leaves such snapshots out",
+        _ => "",
+    }
 }
 
 impl From<Failure> for Error {

@@ -128,3 +128,20 @@ pub fn all_or_none<T, E: From<Failure>>(
         _ => mine,
     }
 }
+
+/// Numbers that rank 0 finds for all: machines of different make round differently, and no two ranks may
+/// decide differently.
+pub(crate) fn agreed(
+    ranks: &dyn Ranks,
+    find: impl FnOnce() -> Result<Vec<f64>, PodError>,
+) -> Result<Vec<f64>, PodError> {
+    if ranks.count() == 1 {
+        return find();
+    }
+    let told = from_first(
+        ranks,
+        || Ok(find()?.iter().flat_map(|x| x.to_le_bytes()).collect()),
+        |error| Failure::new(0, error),
+    )?;
+    Ok(told.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+}

@@ -35,7 +35,7 @@ pub(crate) fn correlation(
         ensemble.for_tiles(rows.clone(), &mut |mut tile| {
             if let Some(mean) = &tile.mean {
                 for piece in tile.pieces(ensemble) {
-                    let field = &mean.field[piece.start - tile.rows.start..];
+                    let field = &mean[piece.start - tile.rows.start..];
                     sum.sums[m * m] += energy(ensemble.product, &piece, field)?;
                 }
             }

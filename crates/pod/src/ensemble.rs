@@ -36,15 +36,7 @@ pub(crate) struct Ensemble<'a> {
 }
 
 impl<'a> Ensemble<'a> {
-    pub fn new(
-        source: &'a dyn SnapshotSource,
-        product: &'a dyn InnerProduct,
-        options: &'a Options,
-    ) -> Result<Self, PodError> {
-        Self::for_sums(source, product, options, source.times().len())
-    }
-
-    /// The same for sums that have fewer columns than M.
+    /// * `width`: columns of the sums that will be taken, each with M rows
     pub fn for_sums(
         source: &'a dyn SnapshotSource,
         product: &'a dyn InnerProduct,

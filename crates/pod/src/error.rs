@@ -71,7 +71,7 @@ pub enum PodError {
     /// An entry is NaN or infinite.
     #[error(
         "snapshot {snapshot} (time {time} s) holds {value} in row {row}, counted from 0: \
-         every entry must be finite; remove or repair this snapshot, or leave such out (--skip-non-finite)"
+         every entry must be finite; remove or repair this snapshot, or leave such snapshots out"
     )]
     NonFinite {
         /// Index of the snapshot, from 0.
@@ -137,6 +137,30 @@ pub enum PodError {
         "the smallest modes lost their orthogonality to round-off: ask for fewer modes or take `svd`"
     )]
     LostOrthogonality,
+    /// The algorithm loses more to round-off than the first mode has.
+    #[error(
+        "the first eigenvalue is {first:.1e} and this algorithm cannot tell what is under {floor:.1e} from \
+         round-off: take `svd`"
+    )]
+    AllNoise {
+        /// The first eigenvalue.
+        first: f64,
+        /// Eigenvalue below which the algorithm sees noise only.
+        floor: f64,
+    },
+    /// The parts of an old basis do not belong together.
+    #[error(
+        "the old basis has {found} {what}, but {expected} are expected: it is damaged or of two \
+         decompositions"
+    )]
+    OldBasis {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be, at least in the case of a spectrum.
+        expected: usize,
+    },
     /// An old basis and new snapshots that update it are not centred alike.
     #[error(
         "the mean was {} the snapshots of the old basis: do the same with the new ones",
@@ -182,7 +206,7 @@ impl PodError {
     /// Whether the computation failed, and not its input or the medium.
     pub fn is_of_computation(&self) -> bool {
         match self {
-            Self::NoConvergence { .. } | Self::LostOrthogonality => true,
+            Self::NoConvergence { .. } | Self::LostOrthogonality | Self::AllNoise { .. } => true,
             Self::Elsewhere(failure) => failure.of_computation,
             _ => false,
         }

@@ -3,11 +3,13 @@ use crate::ensemble::{check_dimensions, read_checked};
 use crate::mean::subtract_from_columns;
 use crate::partition::Partition;
 use crate::{InnerProduct, PodError, ReducedBasis, SnapshotSource};
-use faer::{Mat, MatRef};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, MatRef, Par};
 use std::io;
 
-/// Whole columns that are read at a time.
-const PANEL: usize = 64;
+/// Whole columns that are read at a time: few, as they may be long, and always as many, as products of more
+/// or fewer columns round differently.
+const PANEL: usize = 8;
 
 /// Error of the projection on the first N modes, N = 1..r, paper eq. (32):
 /// `Res(N) = max_t |u - u_N| / max_t |u|`, a fraction.
@@ -55,7 +57,7 @@ pub fn projection_residuals(
         largest = largest_norm(z.as_ref())?.max(largest);
         subtract_from_columns(&mean, z.as_mut());
         let a = product(modes.transpose(), z.as_ref());
-        z -= product(modes.as_ref(), a.as_ref());
+        matmul(z.as_mut(), Accum::Add, modes.as_ref(), a.as_ref(), -1.0, Par::Seq);
         for (e, a) in z.col_iter().zip(a.col_iter()) {
             let mut square = e.squared_norm_l2();
             for (error, a) in errors.iter_mut().zip(a.iter()).rev() {

@@ -44,10 +44,12 @@ impl Mean {
     }
 
     /// The mean of two sets of snapshots, the other of which has this share in it.
-    pub fn mixed(mut self, other: &[f64], share: f64) -> Self {
-        let gap: Vec<f64> = self.difference(other).collect();
-        self.field.iter_mut().zip(gap).for_each(|(mean, gap)| *mean += share * gap);
-        self
+    pub fn mixed(&self, other: &[f64], share: f64) -> Vec<f64> {
+        self.field
+            .iter()
+            .zip(self.difference(other))
+            .map(|(mean, gap)| mean + share * gap)
+            .collect()
     }
 
     /// Subtracts the mean from every column.

@@ -37,6 +37,10 @@ pub trait ModeStore: Sync {
     /// # Errors
     /// The failure of the medium.
     fn read(&self, rows: Range<usize>, out: MatMut<'_, f64>) -> io::Result<()>;
+    /// Whether what was written so far outlives the process, so that a journal may count on it.
+    fn is_lasting(&self) -> bool {
+        true
+    }
     /// Brings everything that was written to the medium, before a journal counts on it.
     ///
     /// # Errors
@@ -124,6 +128,11 @@ impl ModeStore for MemoryModes {
         let held = self.held.read().unwrap_or_else(PoisonError::into_inner);
         copy(held.columns.submatrix(rows.start, 0, rows.len(), out.ncols()), out);
         Ok(())
+    }
+
+    /// Columns go down with the process; before there are any, there is nothing to lose.
+    fn is_lasting(&self) -> bool {
+        self.with(|columns, _| columns.ncols() == 0)
     }
 
     fn sync(&self) -> io::Result<()> {

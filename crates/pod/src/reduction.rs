@@ -40,8 +40,8 @@ impl Reduction<'_> {
     /// called before a journal counts on what the parts have done besides.
     ///
     /// # Errors
-    /// The first failure in the order of the rows: as it was on the rank that had it,
-    /// [`PodError::Elsewhere`] on the others.
+    /// On a rank that failed its own failure; on the others [`PodError::Elsewhere`] with the first in the
+    /// order of the rows.
     pub fn sum(
         &self,
         pass: &Pass,

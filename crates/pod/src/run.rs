@@ -1,4 +1,4 @@
-use crate::agreement::{Failure, from_first, together};
+use crate::agreement::{agreed, together};
 use crate::ensemble::Ensemble;
 use crate::partial::Partial;
 use crate::reduction::Part;
@@ -27,7 +27,9 @@ impl<'a> Run<'a> {
     pub fn over_snapshots(&self, name: &'static str, part: &Part<'_>) -> Result<Partial, PodError> {
         let pass = self.pass(name, self.ensemble.shape().1, true);
         let sync = || Ok(self.modes.sync()?);
-        self.ensemble.reduction(self.execution).sum(&pass, part, &sync)
+        // Sums of columns that are gone would make wrong modes.
+        let execution = if self.modes.is_lasting() { self.execution } else { self.unkept() };
+        self.ensemble.reduction(execution).sum(&pass, part, &sync)
     }
 
     /// A pass over columns of the mode store, which are few: nothing of it is kept.
@@ -37,26 +39,20 @@ impl<'a> Run<'a> {
         columns: usize,
         part: &Part<'_>,
     ) -> Result<Partial, PodError> {
-        let execution = Execution { journal: &crate::NoJournal, ..self.execution };
         let pass = self.pass(name, columns, false);
-        self.ensemble.reduction(execution).sum(&pass, part, &|| Ok(()))
+        self.ensemble.reduction(self.unkept()).sum(&pass, part, &|| Ok(()))
     }
 
-    /// Numbers that rank 0 finds for all: machines of different make round differently, and no two
-    /// ranks may decide differently.
+    fn unkept(&self) -> Execution<'a> {
+        Execution { journal: &crate::NoJournal, ..self.execution }
+    }
+
+    /// Numbers that rank 0 finds for all.
     pub fn agreed(
         &self,
         find: impl FnOnce() -> Result<Vec<f64>, PodError>,
     ) -> Result<Vec<f64>, PodError> {
-        if self.execution.ranks.count() == 1 {
-            return find();
-        }
-        let told = from_first(
-            self.execution.ranks,
-            || Ok(find()?.iter().flat_map(|x| x.to_le_bytes()).collect()),
-            |error| Failure::new(0, error),
-        )?;
-        Ok(told.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect())
+        agreed(self.execution.ranks, find)
     }
 
     /// Whether all ranks may go on after what each has done to its files.

@@ -15,7 +15,7 @@ pub(crate) struct Tile<'t> {
     /// These rows and those after them that the inner product reaches, centred and weighted in time.
     pub x: MatRef<'t, f64>,
     /// Their mean, where it was subtracted.
-    pub mean: Option<Mean>,
+    pub mean: Option<Vec<f64>>,
     /// Where some of the rows are weighted.
     scratch: MatMut<'t, f64>,
 }
@@ -67,14 +67,18 @@ impl Ensemble<'_> {
     }
 
     /// Reads rows of all snapshots, centred and weighted in time.
-    fn read(&self, rows: Range<usize>, mut out: MatMut<'_, f64>) -> Result<Option<Mean>, PodError> {
+    fn read(
+        &self,
+        rows: Range<usize>,
+        mut out: MatMut<'_, f64>,
+    ) -> Result<Option<Vec<f64>>, PodError> {
         let (columns, m) = (self.scale.len(), self.time_weights.len());
         let mut x = out.as_mut().subcols_mut(columns - m, m);
         self.source.block(rows.clone(), 0..m, x.as_mut())?;
         let mean = self.options.center.then(|| Mean::new(x.as_ref(), &self.time_weights));
         self.prepare(mean.as_ref(), columns - m..columns, x);
         match self.previous {
-            None => Ok(mean),
+            None => Ok(mean.map(|mean| mean.field)),
             Some(previous) => Ok(previous.read(rows, mean, out.subcols_mut(0, columns - m))?),
         }
     }

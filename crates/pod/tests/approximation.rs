@@ -299,3 +299,14 @@ fn bad_input_is_refused() {
         assert!(run(&damaged, &small).contains("the limit is"), "{}", algorithm.name);
     }
 }
+
+/// As many as there are.
+#[test]
+fn any_number_of_modes_may_be_asked_for() {
+    let w = Identity::new(N);
+    let x = snapshots(field(&[1.0, 0.5, 0.2], &w));
+    for algorithm in APPROXIMATIONS {
+        let basis = (algorithm.run)(&x, &w, &ask(usize::MAX)).expect("a decomposition");
+        assert_eq!(basis.size(), 4, "{}: {:?}", algorithm.name, basis.spectrum);
+    }
+}

@@ -127,6 +127,10 @@ fn more_memory_than_allowed_is_refused_with_the_figure() {
     assert!(matches!(error, PodError::Memory { bytes, .. } if bytes == expected), "{error}");
     assert!(error.to_string().contains("take `snapshots` or `svd`"), "{error}");
 
+    let wide = Enormous(times(3_000_001));
+    let error = lumley_pod::direct(&wide, &w, &Options::default()).expect_err("216 TB");
+    assert!(error.to_string().ends_with("take `randomized` or `incremental`"), "{error}");
+
     let many = Enormous(times(2_000_000));
     for run in [lumley_pod::method_of_snapshots, lumley_pod::svd, lumley_pod::auto] {
         let error = run(&many, &w, &Options::default()).expect_err("96 TB");

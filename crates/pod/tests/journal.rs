@@ -3,10 +3,11 @@
 mod common;
 
 use common::{times, with_singular_values};
-use faer::{Mat, MatMut, MatRef, Par};
+use faer::{MatMut, MatRef, Par};
 use lumley_pod::{
-    ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition, Diagonal, Execution, Journal,
-    MemoryModes, MemorySnapshots, ModeStore, Options, PodError, SnapshotSource, Truncation,
+    ALGORITHMS, APPROXIMATIONS, Decomposition, Diagonal, Execution, InnerProduct, Journal,
+    MemoryModes, MemorySnapshots, ModeStore, OldBasis, Options, PodError, SnapshotSource,
+    Truncation, method_of_snapshots, svd, update,
 };
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -17,9 +18,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Counts operations, and fails from one of them on: the process is dead.
 struct Fuse {
     left: AtomicUsize,
+    /// Rows of snapshots that were read.
+    rows: AtomicUsize,
 }
 
 impl Fuse {
+    fn new(operations: usize) -> Self {
+        Self { left: AtomicUsize::new(operations), rows: AtomicUsize::new(0) }
+    }
+
     fn burn(&self) -> io::Result<()> {
         let burn = |left: usize| Some(left.saturating_sub(1));
         match self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, burn) {
@@ -72,33 +79,40 @@ impl SnapshotSource for Burning<'_, MemorySnapshots> {
         out: MatMut<'_, f64>,
     ) -> io::Result<()> {
         self.fuse.burn()?;
+        self.fuse.rows.fetch_add(rows.len(), Ordering::Relaxed);
         self.inner.block(rows, cols, out)
     }
 }
 
-/// Like a file: what was reserved once stays.
+/// Like files, one of columns and one of modes: what was reserved once stays.
+#[derive(Default)]
+struct Files {
+    columns: MemoryModes,
+    reserved: AtomicUsize,
+    modes: MemoryModes,
+}
+
 struct Store<'a> {
-    inner: &'a MemoryModes,
-    reserved: &'a AtomicUsize,
+    files: &'a Files,
     fuse: &'a Fuse,
 }
 
 impl ModeStore for Store<'_> {
     fn reserve(&self, rows: usize, columns: usize) -> io::Result<()> {
         self.fuse.burn()?;
-        match self.reserved.swap(columns, Ordering::Relaxed) {
+        match self.files.reserved.swap(columns, Ordering::Relaxed) {
             before if before == columns => Ok(()),
-            _ => self.inner.reserve(rows, columns),
+            _ => self.files.columns.reserve(rows, columns),
         }
     }
 
     fn write(&self, rows: Range<usize>, columns: MatRef<'_, f64>) -> io::Result<()> {
         self.fuse.burn()?;
-        self.inner.write(rows, columns)
+        self.files.columns.write(rows, columns)
     }
 
     fn read(&self, rows: Range<usize>, out: MatMut<'_, f64>) -> io::Result<()> {
-        self.inner.read(rows, out)
+        self.files.columns.read(rows, out)
     }
 
     fn sync(&self) -> io::Result<()> {
@@ -107,81 +121,133 @@ impl ModeStore for Store<'_> {
 
     fn begin(&self, rows: usize, modes: usize, mean: bool) -> io::Result<()> {
         self.fuse.burn()?;
-        self.inner.begin(rows, modes, mean)
+        self.files.modes.begin(rows, modes, mean)
     }
 
-    /// Published modes lie in another file than the columns they are made of.
-    fn publish(&self, _: Range<usize>, _: MatRef<'_, f64>, _: Option<&[f64]>) -> io::Result<()> {
-        self.fuse.burn()
+    fn publish(
+        &self,
+        rows: Range<usize>,
+        modes: MatRef<'_, f64>,
+        mean: Option<&[f64]>,
+    ) -> io::Result<()> {
+        self.fuse.burn()?;
+        self.files.modes.publish(rows, modes, mean)
     }
 }
 
 const N: usize = 160_000;
 
+/// Rows between two entries: 4 leaves of 8192.
+const GROUP: usize = 4 * 8192;
+
+type Work<'a> = dyn Fn(
+        &dyn SnapshotSource,
+        &dyn InnerProduct,
+        &Options,
+        Execution<'_>,
+        &dyn ModeStore,
+    ) -> Result<Decomposition, PodError>
+    + 'a;
+
+fn weights() -> Diagonal {
+    Diagonal::new((0..N).map(|i| 1.0 + (i % 3) as f64).collect()).expect("positive")
+}
+
+fn options() -> Options {
+    Options { truncation: Truncation::Modes(5), center: true, par: Par::Seq, ..Options::default() }
+}
+
+fn field() -> MemorySnapshots {
+    let sigma: Vec<f64> = (0..7).map(|k| 0.01_f64.powi(k)).collect();
+    MemorySnapshots::new(with_singular_values(&sigma, (N, 9), &weights(), 3), times(9))
+}
+
+/// All that outlives a process.
+#[derive(Default)]
 struct Life {
     disk: Disk,
-    modes: MemoryModes,
-    reserved: AtomicUsize,
+    files: Files,
 }
 
 impl Life {
-    fn new() -> Self {
-        let (disk, modes) = (Disk::default(), MemoryModes::default());
-        Self { disk, modes, reserved: AtomicUsize::new(0) }
-    }
-
-    /// Runs until the fuse is burnt; returns how much of it was.
+    /// Runs until the fuse is burnt.
     fn run(
         &self,
-        algorithm: &Algorithm,
+        work: &Work<'_>,
         x: &MemorySnapshots,
-        operations: usize,
-    ) -> (Result<Decomposition, PodError>, usize) {
-        let fuse = Fuse { left: AtomicUsize::new(operations) };
-        let w = Diagonal::new((0..N).map(|i| 1.0 + (i % 3) as f64).collect()).expect("positive");
-        let options = Options {
-            truncation: Truncation::Modes(5),
-            center: true,
-            par: Par::Seq,
-            ..Options::default()
-        };
-        let journal = Burning { inner: &self.disk, fuse: &fuse };
+        fuse: &Fuse,
+    ) -> Result<Decomposition, PodError> {
+        let journal = Burning { inner: &self.disk, fuse };
         let execution = Execution { journal: &journal, ..Execution::default() };
-        let store = Store { inner: &self.modes, reserved: &self.reserved, fuse: &fuse };
-        let source = Burning { inner: x, fuse: &fuse };
-        let found = (algorithm.stream)(&source, &w, &options, execution, &store);
-        (found, operations - fuse.left.load(Ordering::Relaxed))
+        let (store, source) = (Store { files: &self.files, fuse }, Burning { inner: x, fuse });
+        work(&source, &weights(), &options(), execution, &store)
     }
+}
 
-    /// The columns that the modes are made of.
-    fn columns(&self) -> Mat<f64> {
-        let mut columns = Mat::zeros(N, self.reserved.load(Ordering::Relaxed));
-        self.modes.read(0..N, columns.as_mut()).expect("modes in memory");
-        columns
+fn survives(name: &str, work: &Work<'_>, x: &MemorySnapshots) {
+    let (whole, fuse) = (Life::default(), Fuse::new(usize::MAX >> 1));
+    let expected = whole.run(work, x, &fuse).expect("a decomposition");
+    let published = whole.files.modes.into_parts();
+    let operations = (usize::MAX >> 1) - fuse.left.into_inner();
+    let rows = fuse.rows.into_inner();
+    assert_eq!((operations > 60, rows), (true, expected.passes * N), "{name}, {operations}");
+    for survived in (0..operations).step_by(7) {
+        let (life, first, second) =
+            (Life::default(), Fuse::new(survived), Fuse::new(usize::MAX >> 1));
+        let dead = life.run(work, x, &first);
+        assert!(matches!(dead, Err(PodError::Medium(_))), "{name}, {survived}: {dead:?}");
+        let found = life.run(work, x, &second).expect("it goes on");
+        assert_eq!(found, expected, "{name}, {survived}");
+        assert_eq!(life.files.modes.into_parts(), published, "{name}, {survived}");
+        let again = (first.rows.into_inner() + second.rows.into_inner()) - rows;
+        assert!(again <= GROUP, "{name}, {survived}: {again} rows were read again");
     }
 }
 
 #[test]
 fn death_at_any_operation_loses_nothing() {
-    let sigma: Vec<f64> = (0..7).map(|k| 0.01_f64.powi(k)).collect();
-    let w = Diagonal::new(vec![1.0; N]).expect("positive");
-    let x = MemorySnapshots::new(with_singular_values(&sigma, (N, 9), &w, 3), times(9));
+    let x = field();
     let all = ALGORITHMS.iter().chain(APPROXIMATIONS);
     for algorithm in all.filter(|a| !["direct", "incremental"].contains(&a.name)) {
-        let whole = Life::new();
-        let (expected, operations) = whole.run(algorithm, &x, usize::MAX >> 1);
-        let expected = expected.expect("a decomposition");
-        assert!(operations > 60, "{operations}");
-        for survived in (0..operations).step_by(7) {
-            let life = Life::new();
-            let (dead, _) = life.run(algorithm, &x, survived);
-            assert!(matches!(dead, Err(PodError::Medium(_))), "{survived}: {dead:?}");
-            let (found, again) = life.run(algorithm, &x, usize::MAX >> 1);
-            assert_eq!(found.expect("it goes on"), expected, "{}, {survived}", algorithm.name);
-            assert_eq!(life.columns(), whole.columns(), "{}, {survived}", algorithm.name);
-            assert!(again <= operations, "{survived}: {again} of {operations}");
-            // At most what lies between two entries is done again.
-            assert!(again + survived < operations + operations / 2 || survived < operations / 2);
-        }
+        survives(algorithm.name, &algorithm.stream, &x);
+    }
+}
+
+#[test]
+fn an_update_that_dies_goes_on() {
+    let x = field();
+    let part = |cols: Range<usize>| {
+        let of_part = x.matrix().subcols(cols.start, cols.len()).to_owned();
+        MemorySnapshots::new(of_part, times(9)[cols].to_vec())
+    };
+    let basis = svd(&part(0..4), &weights(), &options()).expect("a decomposition");
+    let old = OldBasis { decomposition: &basis, modes: &basis };
+    let work: &Work<'_> =
+        &|x, w, options, execution, modes| update(old, x, w, options, execution, modes);
+    survives("update", work, &part(4..9));
+}
+
+/// The columns of a dead process are gone: they are made anew, and only the sums before them are taken up.
+#[test]
+fn modes_in_memory_are_not_taken_up() {
+    let (x, disk, fuse) = (field(), Disk::default(), Fuse::new(usize::MAX >> 1));
+    let counted = Fuse::new(usize::MAX >> 1);
+    let source = Burning { inner: &x, fuse: &counted };
+    let expected = method_of_snapshots(&source, &weights(), &options()).expect("a decomposition");
+    let reads = (usize::MAX >> 1) - counted.left.into_inner();
+    let read = |operations: usize| {
+        let (dying, store) = (Fuse::new(operations), MemoryModes::default());
+        let journal = Burning { inner: &disk, fuse: &fuse };
+        let execution = Execution { journal: &journal, ..Execution::default() };
+        let source = Burning { inner: &x, fuse: &dying };
+        let found = (ALGORITHMS[1].stream)(&source, &weights(), &options(), execution, &store);
+        (found, store.into_parts(), dying.rows.into_inner())
+    };
+    let (dead, _, rows) = read(reads * 3 / 4);
+    assert!(dead.is_err() && rows > N + 2 * GROUP && rows < 2 * N, "{rows} rows: {dead:?}");
+    for _ in 0..2 {
+        let (found, (modes, mean), rows) = read(usize::MAX >> 1);
+        assert_eq!(found.expect("it goes on"), expected.decomposition);
+        assert_eq!((modes, mean, rows), (expected.modes.clone(), expected.mean.clone(), N));
     }
 }

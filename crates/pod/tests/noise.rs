@@ -4,7 +4,10 @@ mod common;
 
 use common::{h1, inner, snapshots};
 use faer::Mat;
-use lumley_pod::{ALGORITHMS, Identity, InnerProduct, Options, Truncation};
+use lumley_pod::{
+    ALGORITHMS, Identity, InnerProduct, Options, PodError, SparseSpd, Truncation, direct,
+    method_of_snapshots, svd,
+};
 
 fn ask(modes: usize, center: bool) -> Options {
     Options { truncation: Truncation::Modes(modes), center, ..Options::default() }
@@ -72,4 +75,33 @@ fn modes_over_the_amplified_noise_are_kept() {
         let defect = (inner(&w, phi, phi) - Mat::<f64>::identity(3, 3)).norm_max();
         assert!(defect < 1e-10, "{}: {defect:e}", algorithm.name);
     }
+}
+
+/// A uniform field costs this product next to nothing, and differences of large entries all the more: squares
+/// of them are noise, and no number of modes would help.
+#[test]
+fn where_all_is_noise_another_algorithm_is_named() {
+    let (n, small) = (8, 2e-15);
+    let of_cell = |k: usize| [(k, k, 1.0), (k, k + 1, -1.0), (k + 1, k, -1.0), (k + 1, k + 1, 1.0)];
+    let stiff = (0..n - 1).flat_map(of_cell).chain((0..n).map(|k| (k, k, small)));
+    let w = SparseSpd::from_triplets(n, &stiff.collect::<Vec<_>>()).expect("positive definite");
+    let x = snapshots(Mat::from_fn(n, 3, |_, j| 1.0 + j as f64));
+    let error = method_of_snapshots(&x, &w, &ask(1, false)).expect_err("noise");
+    let PodError::AllNoise { first, floor } = error else { panic!("{error}") };
+    assert!(first > 0.0 && first <= floor, "{first:e} {floor:e}");
+    assert!(error.is_of_computation() && error.to_string().ends_with("take `svd`"), "{error}");
+    assert_eq!(svd(&x, &w, &ask(1, false)).expect("no squares").size(), 1);
+}
+
+/// Large entries count for noise with the weight that their snapshot has.
+#[test]
+fn a_loud_snapshot_of_little_weight_makes_little_noise() {
+    let (n, loud) = (30, 1e3);
+    let x = Mat::from_fn(n, 5, |i, j| if j == 0 { loud } else { 1e-6 * ((i * j) as f64).sin() });
+    let time_weights = Some(vec![1e-14, 1.0, 1.0, 1.0, 1.0]);
+    let options = Options { time_weights, ..ask(1, false) };
+    let basis = direct(&snapshots(x), &h1(n), &options).expect("a decomposition");
+    let squaring = n as f64 * f64::EPSILON * basis.eigenvalues[0];
+    let gap = basis.noise_floor / squaring - 1.0;
+    assert!(gap.abs() < 1e-12, "{:e}, {squaring:e} of squaring", basis.noise_floor);
 }

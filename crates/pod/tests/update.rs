@@ -2,10 +2,11 @@
 
 mod common;
 
-use common::{largest, products, snapshots, times, with_singular_values};
+use common::{h1, largest, products, snapshots, times, with_singular_values};
 use faer::Mat;
 use lumley_pod::{
-    Diagonal, Identity, InnerProduct, MemorySnapshots, Options, PodError, Truncation, svd,
+    Decomposition, Diagonal, Identity, InnerProduct, MemorySnapshots, Options, PodError,
+    Truncation, svd,
 };
 use std::ops::Range;
 
@@ -106,4 +107,42 @@ fn what_does_not_fit_is_refused() {
     let mut broken = old.clone();
     broken.modes[(3, 1)] = f64::NAN;
     assert!(matches!(broken.updated(&new, &w, &ask(4)), Err(PodError::OldModes { .. })));
+}
+
+/// The parts of a basis that was put together by hand, or read from a damaged file.
+#[test]
+fn parts_that_do_not_belong_together_are_refused() {
+    let (w, x) = (Identity::new(N), field(&[1.0, 0.5, 0.2], &Identity::new(N)));
+    let old = svd(&part(&x, 0..50), &w, &ask(4)).expect("a decomposition");
+    let refused = |break_it: &dyn Fn(&mut Decomposition), told: (&str, usize, usize)| {
+        let mut broken = old.clone();
+        break_it(&mut broken.decomposition);
+        let error = broken.updated(&part(&x, 50..M), &w, &ask(4)).expect_err(told.0);
+        let PodError::OldBasis { what, found, expected } = error else { panic!("{error}") };
+        assert_eq!((what, found, expected), told);
+    };
+    refused(&|d| d.coefficients.truncate(3, 50), ("rows of coefficients", 3, 4));
+    refused(&|d| d.coefficients.truncate(4, 49), ("columns of coefficients", 49, 50));
+    refused(&|d| d.time_weights.truncate(7), ("time weights", 7, 50));
+    refused(&|d| d.spectrum.truncate(2), ("eigenvalues in its spectrum", 2, 4));
+    refused(&|d| d.times.push(1e3), ("columns of coefficients", 50, 51));
+}
+
+/// In a product that amplifies round-off, old snapshots a million times as large as the new ones.
+#[test]
+fn loud_old_snapshots_make_no_modes_of_noise() {
+    let w = h1(N);
+    let shape = |k: usize, i: usize| ((k + 1) as f64 * i as f64 / N as f64).cos() + 1.3;
+    let x = Mat::from_fn(N, M, |i, j| {
+        let loud = if j < 50 { 1.0 } else { 1e-6 };
+        let t = 0.3 * j as f64;
+        loud * (shape(0, i) * t.sin() + 0.3 * shape(1, i) * (2.0 * t).cos())
+    });
+    for center in [false, true] {
+        let options = Options { center, ..ask(10) };
+        let old = svd(&part(&x, 0..50), &w, &options).expect("a decomposition");
+        let basis = old.updated(&part(&x, 50..M), &w, &options).expect("an update");
+        assert_eq!((old.rank, basis.rank), (2, 2), "{:?}", basis.spectrum);
+        assert!(basis.spectrum[1] > 1e6 * basis.noise_floor);
+    }
 }

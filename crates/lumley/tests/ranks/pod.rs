@@ -151,7 +151,7 @@ pub fn what_all_ranks_see_is_said_once() {
     write_matrix(desk.path().join("zero.npy"), Mat::<f64>::zeros(4, 5000).as_ref()).expect("zeros");
     let table: [(&str, &[&str]); 4] = [
         ("x.npy --modes 0", &["--modes 0", "at least 1"]),
-        ("x.npy --method direct", &["3 ranks share the rows"]),
+        ("x.npy --method incremental", &["3 ranks share the rows"]),
         ("x.npy --memory 1kB", &["the limit is 1000"]),
         ("zero.npy", &["zero.npy", "no energy"]),
     ];

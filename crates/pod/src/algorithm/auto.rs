@@ -37,16 +37,21 @@ pub(super) fn stream(
     modes: &dyn ModeStore,
 ) -> Result<Decomposition, PodError> {
     let (unknowns, snapshots) = (x.dim(), x.times().len());
-    if unknowns < snapshots && unknowns > 0 && execution.ranks.count() == 1 {
-        let space = direct::Space::new(x, w, options)?;
+    let mut before = 0;
+    if unknowns < snapshots && unknowns > 0 {
+        let space = direct::Space::new(x, w, options, execution)?;
         let spatial = direct::correlation_in_space(&space)?;
         let choice = Choice::of(&spatial.spectrum, options);
         if choice.is_exact() {
             let found = direct::finish_in_space(&space, modes, spatial)?;
             return Ok(choice.noted(found));
         }
+        before = space.passes();
     }
-    super::with_rows(x, w, options, execution, modes, &|run| in_time(run, options))
+    let mut found =
+        super::with_rows(x, w, options, execution, modes, &|run| in_time(run, options))?;
+    found.passes += before;
+    Ok(found)
 }
 
 fn in_time(run: &Run<'_>, options: &Options) -> Result<Decomposition, PodError> {

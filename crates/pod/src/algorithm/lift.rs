@@ -19,7 +19,7 @@ pub(crate) fn lift(
     let Temporal { spectrum, vectors } = temporal;
     let (kept, note) = spectrum.keep(run.ensemble.options.truncation);
     if kept == 0 {
-        return Err(PodError::LostOrthogonality);
+        return Err(PodError::AllNoise { first: spectrum.values[0], floor: spectrum.floor });
     }
     let m = vectors.nrows();
     let sigma = singular_values(&spectrum.values[..kept], m);

@@ -81,7 +81,7 @@ impl Lift<'_> {
         let (kept, first) = (self.to_modes.ncols(), tile.rows.start);
         let mut columns = Mat::zeros(tile.rows.len(), kept + usize::from(tile.mean.is_some()));
         for piece in tile.pieces(ensemble) {
-            let mean = tile.mean.as_ref().map(|mean| &mean.field[piece.start - first..]);
+            let mean = tile.mean.as_ref().map(|mean| &mean[piece.start - first..]);
             let mut own = self.columns(ensemble, tile.on(ensemble, &piece), mean);
             let raw = own.subrows(0, piece.len());
             columns.subrows_mut(piece.start - first, piece.len()).copy_from(raw);

@@ -5,8 +5,8 @@ use crate::partial::extreme_of;
 use crate::run::Run;
 use crate::snapshots::MemorySnapshots;
 use crate::{
-    Decomposition, Execution, Identity, InnerProduct, MemoryModes, ModeStore, NoJournal, Options,
-    PodError, SnapshotSource, time_weights,
+    Decomposition, Execution, Identity, InnerProduct, MemoryModes, ModeStore, Options, PodError,
+    SnapshotSource, time_weights,
 };
 use faer::{ColRef, Mat};
 
@@ -33,8 +33,6 @@ pub(super) fn with_columns(
     let mut ensemble = Ensemble::for_sums(&z, &identity, &options, width)?;
     ensemble.amplified = amplified;
     let found = MemoryModes::default();
-    // Columns in memory do not outlive the process: no journal may count on them.
-    let execution = Execution { journal: &NoJournal, ..execution };
     let mut decomposition = algorithm(&Run::new(&ensemble, execution, &found))?;
     let (mut basis, mean) = found.into_parts();
     w.unfactor(basis.as_mut())?;

@@ -4,10 +4,8 @@ use crate::ensemble::{check_dimensions, check_truncation};
 use crate::time_weights::normalised;
 use crate::{
     Decomposition, Execution, InnerProduct, MemoryModes, ModeStore, Options, PodError,
-    ReducedBasis, SnapshotSource, Truncation, projection_residuals,
+    ReducedBasis, Selection, SnapshotSource, Truncation, projection_residuals,
 };
-use faer::MatMut;
-use std::io;
 use std::ops::Range;
 
 /// POD of some snapshots after the others, an approximation: each set updates the modes of those before.
@@ -53,6 +51,7 @@ pub(super) fn stream(
     if ranks.count() > 1 {
         return Err(PodError::WholeColumns { ranks: ranks.count() });
     }
+    // No journal: the passes over one set have the names of those over the others.
     let ReducedBasis { modes: phi, mean, decomposition } =
         fold(x, w, options, Execution { watch, ..Execution::default() })?;
     modes.begin(phi.nrows(), phi.ncols(), mean.is_some())?;
@@ -88,6 +87,7 @@ fn fold(
     let mut basis = basis.expect("there are snapshots");
     if options.residuals {
         basis.decomposition.residuals = projection_residuals(&basis, x, w)?;
+        basis.decomposition.passes += 1;
     }
     Ok(basis)
 }
@@ -96,7 +96,9 @@ fn fold(
 /// spoil the end.
 fn early(truncation: Truncation) -> Truncation {
     match truncation {
-        Truncation::Modes(modes) => Truncation::Modes(modes.saturating_mul(2).max(modes + 10)),
+        Truncation::Modes(modes) => {
+            Truncation::Modes(modes.saturating_mul(2).max(modes.saturating_add(10)))
+        }
         Truncation::Energy(fraction) => Truncation::Energy(1.0 - (1.0 - fraction) / 10.0),
     }
 }
@@ -128,7 +130,7 @@ impl Sets<'_> {
     ) -> Result<ReducedBasis, PodError> {
         let (w, execution, store) = (self.w, self.execution, MemoryModes::default());
         let options = self.options_of(set, before.map_or(0, |basis| basis.size()))?;
-        let new = Columns { of: self.x, range: set.clone() };
+        let new = Selection::new(self.x, set.clone().collect());
         let mut decomposition = match before {
             None => svd::stream(&new, w, &options, execution, &store),
             Some(old) => {
@@ -184,35 +186,5 @@ fn counted_from(first: usize, error: PodError) -> PodError {
             PodError::NonFinite { snapshot: first + snapshot, time, row, value }
         }
         other => other,
-    }
-}
-
-/// Some of the snapshots.
-struct Columns<'a> {
-    of: &'a dyn SnapshotSource,
-    range: Range<usize>,
-}
-
-impl SnapshotSource for Columns<'_> {
-    fn dim(&self) -> usize {
-        self.of.dim()
-    }
-
-    fn times(&self) -> &[f64] {
-        &self.of.times()[self.range.clone()]
-    }
-
-    fn block(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        out: MatMut<'_, f64>,
-    ) -> io::Result<()> {
-        let first = self.range.start;
-        self.of.block(rows, first + cols.start..first + cols.end, out)
-    }
-
-    fn read_size(&self) -> usize {
-        self.of.read_size()
     }
 }

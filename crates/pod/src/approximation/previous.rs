@@ -64,7 +64,7 @@ impl<'a> Previous<'a> {
         rows: Range<usize>,
         mean: Option<Mean>,
         mut out: MatMut<'_, f64>,
-    ) -> io::Result<Option<Mean>> {
+    ) -> io::Result<Option<Vec<f64>>> {
         let size = self.sigma.len();
         self.modes.block(rows.clone(), out.as_mut().subcols_mut(0, size))?;
         for (column, sigma) in out.as_mut().col_iter_mut().zip(&self.sigma) {

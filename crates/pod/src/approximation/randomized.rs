@@ -95,8 +95,7 @@ fn dominant(run: &Run<'_>) -> Result<Mat<f64>, PodError> {
         let (mut omega, mut held) = (random_columns(m, width), 0.0);
         for _ in 0..ITERATIONS {
             let image = Image::of(run, omega.as_ref())?;
-            held = image.held(omega.as_ref());
-            omega = image.directions(run)?;
+            (omega, held) = image.directions(run, omega.as_ref())?;
         }
         // A further step, that to the modes, holds no less: Omegaᵀ C² Omega >= (Omegaᵀ C Omega)².
         if held >= wanted || width == n.min(m) {
@@ -151,12 +150,17 @@ impl Image {
         pairs.map(|(a, b)| a.transpose() * b).sum::<f64>() / self.energy
     }
 
-    /// Orthonormal columns of the same span, those of the largest images first.
+    /// Orthonormal columns of the same span, those of the largest images first, and the share of the energy
+    /// that `omega` held: no two ranks may go on differently.
     ///
     /// Left singular vectors from a QR factorisation: it works column by column and keeps the
     /// directions of small columns, which a singular value decomposition drowns in the round-off
     /// of the large ones.
-    fn directions(self, run: &Run<'_>) -> Result<Mat<f64>, PodError> {
+    fn directions(
+        self,
+        run: &Run<'_>,
+        omega: MatRef<'_, f64>,
+    ) -> Result<(Mat<f64>, f64), PodError> {
         let (m, width) = self.columns.shape();
         let largest = self.columns.norm_max();
         if largest == 0.0 {
@@ -164,15 +168,18 @@ impl Image {
             return Err(PodError::NoEnergy { snapshots: m, centred });
         }
         let found = run.agreed(|| {
+            let held = self.held(omega);
             // Squares of squares: scaled, they stay within the range of numbers.
             let scaled = self.columns * Scale(1.0 / largest);
             let q = dense::orthonormal(scaled.as_ref());
             let r = product(q.transpose(), scaled.as_ref());
             let (_, left) = dense::right_svd(r.transpose())?;
             let vectors = product(q.as_ref(), left.as_ref());
-            Ok(vectors.col_iter().flat_map(|v| v.iter().copied()).collect())
+            let entries = vectors.col_iter().flat_map(|v| v.iter().copied());
+            Ok(entries.chain([held]).collect())
         })?;
-        Ok(MatRef::from_column_major_slice(&found, m, width).to_owned())
+        let (vectors, held) = found.split_at(m * width);
+        Ok((MatRef::from_column_major_slice(vectors, m, width).to_owned(), held[0]))
     }
 }
 
@@ -234,4 +241,59 @@ fn residual_of(run: &Run<'_>, mut all: Residual, discarded: MatRef<'_, f64>) -> 
         *left += a.squared_norm_l2();
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ensemble::Ensemble;
+    use crate::{Identity, MemoryModes, MemorySnapshots, Ranks};
+    use std::sync::mpsc::{Receiver, Sender, channel};
+
+    /// One of two ranks.
+    struct Pair(usize, Sender<Vec<u8>>, Receiver<Vec<u8>>);
+
+    impl Ranks for Pair {
+        fn rank(&self) -> usize {
+            self.0
+        }
+
+        fn count(&self) -> usize {
+            2
+        }
+
+        fn send(&self, _: usize, message: &[u8]) {
+            self.1.send(message.to_vec()).expect("the other rank listens");
+        }
+
+        fn receive(&self, _: usize) -> Vec<u8> {
+            self.2.recv().expect("the other rank speaks")
+        }
+    }
+
+    /// Machines that round differently take the same step: both hear what the first has found.
+    #[test]
+    fn ranks_that_round_differently_go_on_alike() {
+        let (omega, image) = (random_columns(40, 3), random_columns(40, 3) * Scale(2.0));
+        let found = |ranks: &Pair| {
+            let x = MemorySnapshots::new(Mat::zeros(50, 40), vec![0.0; 40]);
+            let (w, options, modes) =
+                (Identity::new(50), Options::default(), MemoryModes::default());
+            let ensemble = Ensemble::for_sums(&x, &w, &options, 3).expect("a plan");
+            let run = Run::new(&ensemble, Execution { ranks, ..Execution::default() }, &modes);
+            let rounding = 1.0 + ranks.rank() as f64 * f64::EPSILON;
+            let image = Image { columns: &image * Scale(rounding), energy: 100.0 };
+            image.directions(&run, omega.as_ref()).expect("directions")
+        };
+        let ((to_second, from_first), (to_first, from_second)) = (channel(), channel());
+        let pair = [Pair(0, to_second, from_second), Pair(1, to_first, from_first)];
+        let found = std::thread::scope(|scope| {
+            let found = &found;
+            pair.map(|rank| scope.spawn(move || found(&rank)))
+                .map(|rank| rank.join().expect("no panic"))
+        });
+        let held = 2.0 * omega.squared_norm_l2() / 100.0;
+        assert!((found[0].1 - held).abs() < 1e-14, "{} {held}", found[0].1);
+        assert_eq!(found[0], found[1]);
+    }
 }

@@ -1,5 +1,6 @@
 use super::Previous;
 use crate::agreement::together;
+use crate::algorithm::finish::singular_values;
 use crate::algorithm::svd::by_correlation;
 use crate::algorithm::with_rows;
 use crate::dense::product;
@@ -29,6 +30,25 @@ pub struct OldBasis<'a> {
     pub modes: &'a dyn ModeSource,
 }
 
+impl OldBasis<'_> {
+    /// Energies, coefficients, times and weights fit together.
+    fn check(&self) -> Result<(), PodError> {
+        let Decomposition { eigenvalues, spectrum, coefficients, times, time_weights, .. } =
+            self.decomposition;
+        let (modes, snapshots) = (eigenvalues.len(), times.len());
+        let counts = [
+            ("rows of coefficients", coefficients.nrows(), modes),
+            ("columns of coefficients", coefficients.ncols(), snapshots),
+            ("time weights", time_weights.len(), snapshots),
+            ("eigenvalues in its spectrum", spectrum.len(), modes.max(spectrum.len())),
+        ];
+        match counts.into_iter().find(|(_, found, expected)| found != expected) {
+            None => Ok(()),
+            Some((what, found, expected)) => Err(PodError::OldBasis { what, found, expected }),
+        }
+    }
+}
+
 /// The POD of old and new snapshots together, from the modes of the old ones (Brand, 2006; Levey and
 /// Lindenbaum, 2000; with the mean Ross et al., 2008).
 ///
@@ -43,15 +63,19 @@ pub struct OldBasis<'a> {
 /// those of the old ones are what they were, turned into the new modes. No residuals are measured, as
 /// that would take the old snapshots.
 ///
+/// The [`noise_floor`](Decomposition::noise_floor) is that of the new snapshots. Round-off of the old ones has
+/// turned their modes, however much larger they were, and makes no modes of its own.
+///
 /// Cost 3 n (r + M2)² flops and at most three passes over the new snapshots and the old modes, of
 /// which nothing is held in memory unless the inner product couples all rows.
 ///
-/// * `old`: its coefficients, times and weights are of one length; it is not `modes`
+/// * `old`: it is not `modes`
 /// * `options`: of the new snapshots; the mean is subtracted where it was from the old ones
 ///
 /// # Errors
-/// Those of [`svd`](crate::svd); [`PodError::Modes`], [`PodError::Centring`] and
-/// [`PodError::OldModes`] where the old basis is not one of such snapshots in this inner product.
+/// Those of [`svd`](crate::svd); [`PodError::OldBasis`] where the parts of the old basis do not fit;
+/// [`PodError::Modes`], [`PodError::Centring`] and [`PodError::OldModes`] where it is not one of such
+/// snapshots in this inner product.
 ///
 /// ```
 /// use lumley_pod::{Execution, Identity, MemoryModes, MemorySnapshots, OldBasis, Options, Truncation, svd, update};
@@ -113,6 +137,7 @@ pub(super) fn joined(
     if unknowns != length {
         return Err(PodError::Modes { unknowns, modes: length });
     }
+    old.check()?;
     let ranks = execution.ranks;
     let mean = old.modes.mean_of(0..0).map_err(PodError::from);
     let centred = together(ranks, mean)?.is_some();
@@ -180,8 +205,7 @@ fn of_all_snapshots(
         .into_iter()
         .flat_map(|(weights, set)| weights.iter().map(move |q| q * previous.counts[set] / all))
         .collect();
-    let snapshots = found.times.len() as f64;
-    found.singular_values = found.eigenvalues.iter().map(|l| (snapshots * l).sqrt()).collect();
+    found.singular_values = singular_values(&found.eigenvalues, found.times.len());
     found.algorithm = "incremental";
     found
 }

@@ -16,6 +16,7 @@
 //! Appl. 13 (1992) 1204-1245, the accuracy; Drmač and Veselić, SIAM J. Matrix Anal. Appl. 29 (2008)
 //! 1322-1362, the triangular factor and its transpose.
 
+use crate::PodError;
 use faer::linalg::householder::make_householder_in_place;
 use faer::linalg::jacobi::JacobiRotation;
 use faer::linalg::matmul::dot::inner_prod;
@@ -24,30 +25,6 @@ use faer::{ColRef, Conj, Mat, MatMut, MatRef, unzip, zip};
 
 #[cfg(test)]
 mod tests;
-
-/// Why [`graded_svd`] has no result.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub(crate) enum JacobiError {
-    /// An entry is NaN or infinite.
-    #[error("entry ({row}, {column}) of a matrix is {value}: every entry must be finite")]
-    NonFinite {
-        /// Row of the first such entry by columns, from 0.
-        row: usize,
-        /// Its column, from 0.
-        column: usize,
-        /// What stands there.
-        value: f64,
-    },
-    /// Columns that are not orthogonal to round-off remain. Not known to happen.
-    #[error(
-        "some columns of a {size} x {size} matrix are not orthogonal after {SWEEPS} Jacobi sweeps, \
-         where 12 are known to suffice: take another singular value decomposition"
-    )]
-    NoConvergence {
-        /// Order of the matrix.
-        size: usize,
-    },
-}
 
 /// Random matrices of order 1000, which are the slowest known, take 11.
 const SWEEPS: usize = 40;
@@ -62,7 +39,7 @@ const FLOOR: f64 = f64::from_bits((1023 - 440) << 52);
 /// Entries of the columns that are rotated among themselves before others: 256 KiB of the cache.
 const TILE: usize = 1 << 15;
 
-/// All singular values of a square matrix, largest first, and right singular vectors in columns.
+/// All singular values of a square matrix of finite entries, largest first, and right singular vectors in columns.
 ///
 /// For `a = B D` or `a = D B`, D diagonal, each value has a relative error of about `eps cond(B)`,
 /// however small it is, for any other matrix one of about `eps sigma_1 / sigma_k` at the worst.
@@ -73,11 +50,10 @@ const TILE: usize = 1 << 15;
 /// columns are. One thread: the same bits every time.
 ///
 /// # Errors
-/// Every variant of [`JacobiError`].
-pub(crate) fn graded_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), JacobiError> {
+/// [`PodError::NoConvergence`] where columns that are not orthogonal to round-off remain after 40 sweeps.
+pub(crate) fn graded_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodError> {
     let size = a.ncols();
     assert!(a.nrows() == size, "the matrix is {} x {size}, not square", a.nrows());
-    check_finite(a)?;
     let largest = a.norm_max();
     if largest == 0.0 {
         return Ok((vec![0.0; size], Mat::identity(size, size)));
@@ -94,15 +70,6 @@ pub(crate) fn graded_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), Jac
         *value = *value / CEILING * unit;
     }
     Ok((values, vectors))
-}
-
-fn check_finite(a: MatRef<'_, f64>) -> Result<(), JacobiError> {
-    for (column, entries) in a.col_iter().enumerate() {
-        if let Some((row, &value)) = entries.iter().enumerate().find(|(_, v)| !v.is_finite()) {
-            return Err(JacobiError::NonFinite { row, column, value });
-        }
-    }
-    Ok(())
 }
 
 /// `a` with every entry scaled, the row with the largest entry first.
@@ -162,7 +129,7 @@ fn reflect(a: MatMut<'_, f64>, norms: &mut [f64]) {
 
 /// Sweeps over all pairs of columns until every pair was found orthogonal to round-off,
 /// `|xᵀ y| <= eps sqrt(m) |x| |y|`, in one sweep.
-fn orthogonalise(mut x: MatMut<'_, f64>) -> Result<(), JacobiError> {
+fn orthogonalise(mut x: MatMut<'_, f64>) -> Result<(), PodError> {
     let size = x.ncols();
     let tolerance = f64::EPSILON * (size as f64).sqrt();
     for _ in 0..SWEEPS {
@@ -176,7 +143,7 @@ fn orthogonalise(mut x: MatMut<'_, f64>) -> Result<(), JacobiError> {
             return Ok(());
         }
     }
-    Err(JacobiError::NoConvergence { size })
+    Err(PodError::NoConvergence { size })
 }
 
 /// Makes columns `p < q` orthogonal, the longer one first. Returns whether they were not so before.

@@ -52,7 +52,7 @@ pub(crate) fn right_svd(a: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), PodE
         return Err(PodError::Overflow);
     }
     if least < GRADED * largest {
-        return graded_svd(a).map_err(|_| PodError::NoConvergence { size: a.ncols() });
+        return graded_svd(a);
     }
     bidiagonal_svd(a)
 }
