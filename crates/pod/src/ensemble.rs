@@ -1,4 +1,4 @@
-use crate::approximation::Previous;
+use crate::approximation::{OVERSAMPLING, Previous};
 use crate::contiguous::columns_mut;
 use crate::inner_product::reach_of;
 use crate::mean::Mean;
@@ -43,10 +43,32 @@ impl<'a> Ensemble<'a> {
         options: &'a Options,
         width: usize,
     ) -> Result<Self, PodError> {
-        let m = source.times().len();
         check_dimensions(source, product)?;
         check_truncation(options.truncation)?;
-        let (partition, plan) = planned(source, product, options, [m, width])?;
+        let plan = planned(source, product, options, [source.times().len(), width])?;
+        Self::with_plan(source, product, options, plan)
+    }
+
+    /// For algorithms that read whole columns.
+    pub fn for_columns(
+        source: &'a dyn SnapshotSource,
+        product: &'a dyn InnerProduct,
+        options: &'a Options,
+    ) -> Result<Self, PodError> {
+        check_dimensions(source, product)?;
+        check_truncation(options.truncation)?;
+        let partition = Partition::new(source.dim(), source.times().len());
+        let plan = Plan { tile: partition.block(), group: 1 };
+        Self::with_plan(source, product, options, (partition, plan))
+    }
+
+    fn with_plan(
+        source: &'a dyn SnapshotSource,
+        product: &'a dyn InnerProduct,
+        options: &'a Options,
+        (partition, plan): (Partition, Plan),
+    ) -> Result<Self, PodError> {
+        let m = source.times().len();
         let time_weights = time_weights::normalised(options.time_weights.as_deref(), m)?;
         let scale = match &options.time_weights {
             Some(_) => time_weights.iter().map(|q| (m as f64 * q).sqrt()).collect(),
@@ -167,10 +189,11 @@ fn planned(
     let partition = Partition::new(source.dim(), snapshots);
     let reach = reach_of(product);
     let (threads, read) = (options.par.degree().max(1), source.read_size());
-    let modes = match options.truncation {
-        Truncation::Modes(modes) => modes.min(snapshots),
+    let asked = match options.truncation {
+        Truncation::Modes(modes) => modes.saturating_add(OVERSAMPLING),
         Truncation::Energy(_) => snapshots,
     };
+    let modes = asked.min(snapshots).min(source.dim());
     let sum = snapshots * width;
     let demand = Demand { partition, snapshots, modes, sum, threads, reach, read };
     Ok((partition, Plan::new(&demand, options.memory_limit)?))

@@ -29,11 +29,11 @@ pub(crate) struct Demand {
 impl Plan {
     /// The largest steps that fit into `limit` bytes.
     pub fn new(demand: &Demand, limit: u64) -> Result<Self, PodError> {
-        let block = demand.partition.block();
-        let row = 8 * demand.snapshots;
-        let wanted = (demand.read / row).max(demand.partition.piece(demand.reach));
-        let tiles = std::iter::successors(Some(wanted.next_multiple_of(block)), |tile| {
-            (*tile > block).then(|| (tile / 2).next_multiple_of(block))
+        // Whole pieces, so that the rows after a piece do not depend on the tile.
+        let piece = demand.partition.piece(demand.reach);
+        let wanted = (demand.read / (8 * demand.snapshots)).next_multiple_of(piece).max(piece);
+        let tiles = std::iter::successors(Some(wanted), |tile| {
+            (*tile > piece).then(|| (tile / 2).next_multiple_of(piece))
         });
         // Enough groups for a journal to be worth while, enough leaves in each to share.
         let threads = demand.threads.next_power_of_two();
@@ -44,7 +44,7 @@ impl Plan {
         let fits = |plan: &Self| plan.bytes(demand) <= u128::from(limit);
         plans.find(fits).ok_or_else(|| PodError::Memory {
             what: "the correlation of the snapshots, block by block",
-            bytes: Self { tile: block, group: threads }.bytes(demand),
+            bytes: Self { tile: piece, group: threads }.bytes(demand),
             limit,
             remedy: "raise the limit, take fewer threads or fewer snapshots, or one of the approximations",
         })

@@ -2,7 +2,7 @@ use crate::agreement::together;
 use crate::ensemble::Ensemble;
 use crate::partial::Partial;
 use crate::run::Run;
-use crate::{Execution, Identity, MemoryModes, Options, PodError, SnapshotSource};
+use crate::{Execution, Identity, MemoryModes, Options, PodError, SnapshotSource, Truncation};
 use faer::MatMut;
 use std::io;
 use std::ops::Range;
@@ -91,7 +91,8 @@ pub fn finite_snapshots(
     let (product, modes) = (Identity::new(x.dim()), MemoryModes::default());
     let Options { par, memory_limit, .. } = *options;
     // Not centred: one infinite entry would spoil its whole row.
-    let as_they_are = Options { par, memory_limit, ..Options::default() };
+    let truncation = Truncation::Modes(1); // none are made
+    let as_they_are = Options { truncation, par, memory_limit, ..Options::default() };
     let ensemble = Ensemble::for_sums(x, &product, &as_they_are, 1);
     let ensemble = together(execution.ranks, ensemble)?;
     let part = |rows: Range<usize>| {

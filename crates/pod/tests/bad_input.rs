@@ -123,8 +123,10 @@ fn more_memory_than_allowed_is_refused_with_the_figure() {
     let few = Enormous(times(10));
     let w = Identity::new(few.dim());
     let error = lumley_pod::direct(&few, &w, &Options::default()).expect_err("216 TB");
-    let expected = 3 * 8 * 3_000_000_u128.pow(2);
-    assert!(matches!(error, PodError::Memory { bytes, .. } if bytes == expected), "{error}");
+    // Three squares, and little beside them.
+    let squares = 3 * 8 * 3_000_000_u128.pow(2);
+    let near = |bytes: u128| bytes > squares && bytes - squares < squares / 1000;
+    assert!(matches!(error, PodError::Memory { bytes, .. } if near(bytes)), "{error}");
     assert!(error.to_string().contains("take `snapshots` or `svd`"), "{error}");
 
     let wide = Enormous(times(3_000_001));

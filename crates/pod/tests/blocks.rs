@@ -2,15 +2,14 @@
 
 mod common;
 
-use common::{products, random_matrix, times, with_singular_values};
-use faer::{MatMut, Par};
+use common::{counted, products, random_matrix, seen, snapshots, times, with_singular_values};
+use faer::{Mat, MatMut, Par};
 use lumley_pod::{
     ALGORITHMS, APPROXIMATIONS, Identity, InnerProduct, MemorySnapshots, Options, PodError,
     ReducedBasis, SnapshotSource, Truncation, auto, method_of_snapshots, svd,
 };
 use std::io;
 use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Many blocks of rows, the last one short.
 const N: usize = 9001;
@@ -84,50 +83,18 @@ fn memory_does_not_change_a_bit() {
 
 type Run = fn(&dyn SnapshotSource, &dyn InnerProduct, &Options) -> Result<ReducedBasis, PodError>;
 
-/// Counts what is read.
-struct Counting {
-    x: MemorySnapshots,
-    entries: AtomicUsize,
-    largest: AtomicUsize,
-}
-
-impl SnapshotSource for Counting {
-    fn dim(&self) -> usize {
-        self.x.dim()
-    }
-
-    fn times(&self) -> &[f64] {
-        self.x.times()
-    }
-
-    fn block(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        out: MatMut<'_, f64>,
-    ) -> io::Result<()> {
-        let size = rows.len() * cols.len();
-        self.entries.fetch_add(size, Ordering::Relaxed);
-        self.largest.fetch_max(size, Ordering::Relaxed);
-        self.x.block(rows, cols, out)
-    }
-}
-
 /// Two passes in blocks, far from the whole, and a third for the exact route.
 #[test]
 fn snapshots_are_read_by_blocks() {
     let n = 60_000;
+    let x = snapshots(random_matrix(n, 10, 3));
     for (run, passes) in [(method_of_snapshots as Run, 2), (svd, 3)] {
         for center in [false, true] {
-            let x = Counting {
-                x: MemorySnapshots::new(random_matrix(n, 10, 3), times(10)),
-                entries: AtomicUsize::new(0),
-                largest: AtomicUsize::new(0),
-            };
             let options = Options { center, ..Options::default() };
-            run(&x, &Identity::new(n), &options).expect("a decomposition");
-            assert_eq!(x.entries.into_inner(), passes * n * 10);
-            assert!(x.largest.into_inner() <= n * 10 / 7);
+            let (found, numbers, largest) = counted(&x, |x| run(x, &Identity::new(n), &options));
+            found.expect("a decomposition");
+            assert_eq!(numbers, passes * n * 10);
+            assert!(largest <= n * 10 / 7);
         }
     }
 }
@@ -147,28 +114,15 @@ fn a_sketch_is_taken_of_many_rows() {
 /// A medium that fails, or a block that fails, is an error of the decomposition.
 #[test]
 fn a_source_that_cannot_be_read_is_an_error() {
-    struct Broken(Vec<f64>);
-    impl SnapshotSource for Broken {
-        fn dim(&self) -> usize {
-            N
-        }
-        fn times(&self) -> &[f64] {
-            &self.0
-        }
-        fn block(
-            &self,
-            rows: Range<usize>,
-            _: Range<usize>,
-            mut out: MatMut<'_, f64>,
-        ) -> io::Result<()> {
-            out.fill(1.0);
-            if rows.end == N { Err(io::Error::other("block 7 is damaged")) } else { Ok(()) }
-        }
-    }
+    let x = snapshots(Mat::ones(N, 3));
+    let broken = seen(&x, |rows, _| match rows.end {
+        N => Err(io::Error::other("block 7 is damaged")),
+        _ => Ok(()),
+    });
     for algorithm in &ALGORITHMS[..2] {
         for par in [Par::Seq, Par::rayon(2)] {
             let options = Options { par, ..Options::default() };
-            let error = (algorithm.run)(&Broken(times(3)), &Identity::new(N), &options);
+            let error = (algorithm.run)(&broken, &Identity::new(N), &options);
             let message = error.expect_err("the last block is damaged").to_string();
             assert_eq!(message, "block 7 is damaged");
         }

@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{times, with_singular_values};
+use common::{seen, times, with_singular_values};
 use faer::{MatMut, MatRef, Par};
 use lumley_pod::{
     ALGORITHMS, APPROXIMATIONS, Decomposition, Diagonal, Execution, InnerProduct, Journal,
@@ -34,6 +34,15 @@ impl Fuse {
             Ok(_) => Ok(()),
         }
     }
+
+    /// `x`, of which each block that is read is an operation.
+    fn source(&self, x: &MemorySnapshots) -> impl SnapshotSource {
+        seen(x, |rows, _| {
+            self.burn()?;
+            self.rows.fetch_add(rows.len(), Ordering::Relaxed);
+            Ok(())
+        })
+    }
 }
 
 /// What survives a death.
@@ -42,45 +51,24 @@ struct Disk {
     entries: RefCell<BTreeMap<String, Vec<u8>>>,
 }
 
-struct Burning<'a, T: ?Sized> {
-    inner: &'a T,
+struct Record<'a> {
+    disk: &'a Disk,
     fuse: &'a Fuse,
 }
 
-impl Journal for Burning<'_, Disk> {
+impl Journal for Record<'_> {
     fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
-        Ok(self.inner.entries.borrow().get(name).cloned())
+        Ok(self.disk.entries.borrow().get(name).cloned())
     }
 
     fn save(&self, name: &str, entry: &[u8]) -> io::Result<()> {
         self.fuse.burn()?;
-        self.inner.entries.borrow_mut().insert(name.to_owned(), entry.to_vec());
+        self.disk.entries.borrow_mut().insert(name.to_owned(), entry.to_vec());
         Ok(())
     }
 
     fn is_due(&self) -> bool {
         true
-    }
-}
-
-impl SnapshotSource for Burning<'_, MemorySnapshots> {
-    fn dim(&self) -> usize {
-        self.inner.dim()
-    }
-
-    fn times(&self) -> &[f64] {
-        self.inner.times()
-    }
-
-    fn block(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        out: MatMut<'_, f64>,
-    ) -> io::Result<()> {
-        self.fuse.burn()?;
-        self.fuse.rows.fetch_add(rows.len(), Ordering::Relaxed);
-        self.inner.block(rows, cols, out)
     }
 }
 
@@ -177,10 +165,10 @@ impl Life {
         x: &MemorySnapshots,
         fuse: &Fuse,
     ) -> Result<Decomposition, PodError> {
-        let journal = Burning { inner: &self.disk, fuse };
+        let journal = Record { disk: &self.disk, fuse };
         let execution = Execution { journal: &journal, ..Execution::default() };
-        let (store, source) = (Store { files: &self.files, fuse }, Burning { inner: x, fuse });
-        work(&source, &weights(), &options(), execution, &store)
+        let store = Store { files: &self.files, fuse };
+        work(&fuse.source(x), &weights(), &options(), execution, &store)
     }
 }
 
@@ -232,15 +220,15 @@ fn an_update_that_dies_goes_on() {
 fn modes_in_memory_are_not_taken_up() {
     let (x, disk, fuse) = (field(), Disk::default(), Fuse::new(usize::MAX >> 1));
     let counted = Fuse::new(usize::MAX >> 1);
-    let source = Burning { inner: &x, fuse: &counted };
-    let expected = method_of_snapshots(&source, &weights(), &options()).expect("a decomposition");
+    let expected = method_of_snapshots(&counted.source(&x), &weights(), &options());
+    let expected = expected.expect("a decomposition");
     let reads = (usize::MAX >> 1) - counted.left.into_inner();
     let read = |operations: usize| {
         let (dying, store) = (Fuse::new(operations), MemoryModes::default());
-        let journal = Burning { inner: &disk, fuse: &fuse };
+        let journal = Record { disk: &disk, fuse: &fuse };
         let execution = Execution { journal: &journal, ..Execution::default() };
-        let source = Burning { inner: &x, fuse: &dying };
-        let found = (ALGORITHMS[1].stream)(&source, &weights(), &options(), execution, &store);
+        let run = ALGORITHMS[1].stream;
+        let found = run(&dying.source(&x), &weights(), &options(), execution, &store);
         (found, store.into_parts(), dying.rows.into_inner())
     };
     let (dead, _, rows) = read(reads * 3 / 4);

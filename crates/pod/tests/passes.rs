@@ -2,51 +2,24 @@
 
 mod common;
 
-use common::{h1, random_matrix, times};
-use faer::MatMut;
+use common::{counted, h1, random_matrix, snapshots, times};
 use lumley_pod::{
     ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition, Execution, Identity, InnerProduct,
-    MemoryModes, MemorySnapshots, Options, Pass, SnapshotSource, Truncation, Watch, direct,
-    projection_residuals,
+    MemoryModes, MemorySnapshots, Options, Pass, Truncation, Watch, direct, projection_residuals,
 };
 use std::cell::RefCell;
-use std::io;
-use std::ops::Range;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Counts the numbers that are read, and the most of them at once.
-struct Counting {
-    x: MemorySnapshots,
-    numbers: AtomicUsize,
-    largest: AtomicUsize,
-}
-
-impl Counting {
-    fn new(rows: usize, snapshots: usize) -> Self {
-        let x = MemorySnapshots::new(random_matrix(rows, snapshots, 3), times(snapshots));
-        Self { x, numbers: AtomicUsize::new(0), largest: AtomicUsize::new(0) }
-    }
-}
-
-impl SnapshotSource for Counting {
-    fn dim(&self) -> usize {
-        self.x.dim()
-    }
-
-    fn times(&self) -> &[f64] {
-        self.x.times()
-    }
-
-    fn block(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        out: MatMut<'_, f64>,
-    ) -> io::Result<()> {
-        let size = rows.len() * cols.len();
-        self.numbers.fetch_add(size, Ordering::Relaxed);
-        self.largest.fetch_max(size, Ordering::Relaxed);
-        self.x.block(rows, cols, out)
+/// Few unknowns and many snapshots fit where M x M numbers, or some of each snapshot for each thread,
+/// would not.
+#[test]
+fn the_classical_method_takes_little_memory() {
+    let (n, m) = (16, 20_000);
+    let x = MemorySnapshots::new(random_matrix(n, m, 3), times(m));
+    for algorithm in ALGORITHMS.iter().filter(|a| ["auto", "direct"].contains(&a.name)) {
+        let par = faer::Par::rayon(8);
+        let options = Options { memory_limit: 4 << 20, par, center: true, ..Options::default() };
+        let basis = (algorithm.run)(&x, &Identity::new(n), &options).expect("little memory");
+        assert_eq!((basis.algorithm, basis.size()), ("direct", n), "{}", algorithm.name);
     }
 }
 
@@ -74,17 +47,18 @@ impl Watch for Told {
 /// The decomposition, what was read in passes, and what was told.
 fn watched(
     algorithm: &Algorithm,
-    [rows, snapshots]: [usize; 2],
+    [n, m]: [usize; 2],
     w: &dyn InnerProduct,
     options: &Options,
 ) -> (Decomposition, usize, Vec<usize>) {
-    let (x, told, modes) =
-        (Counting::new(rows, snapshots), Told::default(), MemoryModes::default());
+    let (told, modes) = (Told::default(), MemoryModes::default());
     let execution = Execution { watch: &told, ..Execution::default() };
-    let found = (algorithm.stream)(&x, w, options, execution, &modes).expect("a decomposition");
-    let (numbers, (passes, done)) = (x.numbers.into_inner(), told.0.into_inner());
-    assert_eq!((numbers % (rows * snapshots), done), (0, rows), "{}", algorithm.name);
-    (found, numbers / (rows * snapshots), passes)
+    let (found, numbers, _) = counted(&snapshots(random_matrix(n, m, 3)), |x| {
+        (algorithm.stream)(x, w, options, execution, &modes).expect("a decomposition")
+    });
+    let (passes, done) = told.0.into_inner();
+    assert_eq!((numbers % (n * m), done), (0, n), "{}", algorithm.name);
+    (found, numbers / (n * m), passes)
 }
 
 #[test]
@@ -128,14 +102,15 @@ fn residuals_of_sets_are_a_pass() {
 #[test]
 fn what_is_read_at_once_is_bounded() {
     let options = Options { truncation: Truncation::Modes(2), center: true, ..Options::default() };
-    let many = Counting::new(20, 300_000);
-    direct(&many, &Identity::new(20), &options).expect("a decomposition");
-    assert!(8 * many.largest.into_inner() <= 16 << 20);
+    let many = snapshots(random_matrix(20, 300_000, 3));
+    let limited = Options { memory_limit: 32 << 20, ..options.clone() };
+    let (found, _, largest) = counted(&many, |x| direct(x, &Identity::new(20), &limited));
+    found.expect("a decomposition");
+    assert!(8 * largest <= 8 << 20);
 
-    let long = Counting::new(20_000, 20);
-    let w = Identity::new(20_000);
+    let (long, w) = (snapshots(random_matrix(20_000, 20, 3)), Identity::new(20_000));
     let basis = (ALGORITHMS[0].run)(&long, &w, &options).expect("a decomposition");
-    long.largest.store(0, Ordering::Relaxed);
-    projection_residuals(&basis, &long, &w).expect("residuals");
-    assert!(long.largest.into_inner() <= 8 * 20_000);
+    let (found, _, largest) = counted(&long, |x| projection_residuals(&basis, x, &w));
+    found.expect("residuals");
+    assert!(largest <= 8 * 20_000);
 }

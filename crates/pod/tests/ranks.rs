@@ -2,11 +2,11 @@
 
 mod common;
 
-use common::{grid, random_matrix, times, with_singular_values};
+use common::{grid, random_matrix, seen, snapshots, times, with_singular_values};
 use faer::{Mat, MatMut, MatRef};
 use lumley_pod::{
     ALGORITHMS, APPROXIMATIONS, Execution, Identity, MemorySnapshots, ModeStore, OldBasis, Options,
-    PodError, Ranks, SnapshotSource, Truncation, all_or_none, finite_snapshots, svd, update,
+    PodError, Ranks, Truncation, all_or_none, finite_snapshots, svd, update,
 };
 use std::io;
 use std::ops::Range;
@@ -211,44 +211,19 @@ fn a_basis_is_updated_on_any_number_of_ranks() {
     }
 }
 
-/// Rows above `good` cannot be read.
-struct Half {
-    x: MemorySnapshots,
-    good: usize,
-}
-
-impl SnapshotSource for Half {
-    fn dim(&self) -> usize {
-        self.x.dim()
-    }
-
-    fn times(&self) -> &[f64] {
-        self.x.times()
-    }
-
-    fn block(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        out: MatMut<'_, f64>,
-    ) -> io::Result<()> {
-        if rows.end > self.good {
-            return Err(io::Error::other(format!("half.npy: row {} cannot be read", rows.start)));
-        }
-        self.x.block(rows, cols, out)
-    }
-}
-
 /// No rank waits for the one that failed, and all say what it was.
 #[test]
 fn a_rank_that_cannot_read_ends_all_with_its_reason() {
-    let x = MemorySnapshots::new(random_matrix(N, 5, 1), times(5));
-    let x = Half { x, good: N - 1 };
+    let x = snapshots(random_matrix(N, 5, 1));
+    let half = seen(&x, |rows, _| match rows.end {
+        N => Err(io::Error::other(format!("half.npy: row {} cannot be read", rows.start))),
+        _ => Ok(()),
+    });
     let w = Identity::new(N);
     let modes = Shared::default();
     let errors = on_ranks(4, |ranks| {
         let execution = Execution { ranks, ..Execution::default() };
-        let found = (ALGORITHMS[0].stream)(&x, &w, &Options::default(), execution, &modes);
+        let found = (ALGORITHMS[0].stream)(&half, &w, &Options::default(), execution, &modes);
         found.expect_err("the last rows cannot be read")
     });
     assert!(matches!(&errors[3], PodError::Medium(_)), "{:?}", errors[3]);

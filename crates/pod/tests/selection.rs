@@ -2,56 +2,32 @@
 
 mod common;
 
-use common::{random_matrix, snapshots, times};
-use faer::{Mat, MatMut, Par};
+use common::{random_matrix, seen, snapshots, times};
+use faer::{Mat, Par};
 use lumley_pod::{
     Execution, Identity, MemorySnapshots, Options, PodError, Selection, SnapshotSource,
     finite_snapshots, svd,
 };
 use std::io;
 use std::num::NonZeroUsize;
-use std::ops::Range;
 use std::sync::Mutex;
-
-/// Tells which columns were asked for.
-struct Watched {
-    inner: MemorySnapshots,
-    asked: Mutex<Vec<Range<usize>>>,
-}
-
-impl SnapshotSource for Watched {
-    fn dim(&self) -> usize {
-        self.inner.dim()
-    }
-
-    fn times(&self) -> &[f64] {
-        self.inner.times()
-    }
-
-    fn block(
-        &self,
-        rows: Range<usize>,
-        cols: Range<usize>,
-        out: MatMut<'_, f64>,
-    ) -> io::Result<()> {
-        self.asked.lock().expect("no panic").push(cols.clone());
-        self.inner.block(rows, cols, out)
-    }
-}
 
 #[test]
 fn neighbours_are_read_together() -> io::Result<()> {
     let x = random_matrix(30, 10, 1);
-    let all = Watched { inner: snapshots(x.clone()), asked: Mutex::default() };
+    let (all, asked) = (snapshots(x.clone()), Mutex::new(Vec::new()));
+    let watched = seen(&all, |_, cols| {
+        asked.lock().expect("no panic").push(cols.clone());
+        Ok(())
+    });
     let columns = vec![0, 1, 2, 5, 6, 9, 3, 4];
-    let some = Selection::new(&all, columns.clone());
+    let some = Selection::new(&watched, columns.clone());
     let expected: Vec<f64> = columns.iter().map(|&j| all.times()[j]).collect();
     assert_eq!(some.times(), expected);
     let mut y = Mat::zeros(7, 6);
     some.block(20..27, 1..7, y.as_mut())?;
     assert_eq!(y, Mat::from_fn(7, 6, |i, j| x[(20 + i, columns[1 + j])]));
-    let asked = all.asked.into_inner().expect("no panic");
-    assert_eq!(asked, [1..3, 5..7, 9..10, 3..4]);
+    assert_eq!(*asked.lock().expect("no panic"), [1..3, 5..7, 9..10, 3..4]);
     Ok(())
 }
 

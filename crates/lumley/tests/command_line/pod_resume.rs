@@ -65,6 +65,21 @@ fn an_unfinished_decomposition_goes_on_with_what_it_was_begun_with_alone() {
     pod(&desk, &["--modes", "6", "--force"]).good();
 }
 
+/// Other processors round otherwise: a pass is not ended on one.
+#[test]
+fn another_processor_does_not_go_on() {
+    let desk = desk(40, 20_000);
+    let more = ["--modes", "2"];
+    kill_at(&desk, &more, "work/1-sketch.sum");
+    let path = desk.path("out.partial/manifest.json");
+    let written = fs::read_to_string(&path).expect("a manifest");
+    let other = written.replacen("\"processor ", "\"processor Analytical Engine ", 1);
+    assert_ne!(other, written);
+    fs::write(&path, other).expect("a manifest");
+    pod(&desk, &[&more[..], &["--resume"]].concat())
+        .refused(2, &[OTHER, "then processor Analytical Engine"]);
+}
+
 /// Where the checksum of a long file does not look.
 #[test]
 fn a_change_in_the_middle_of_a_long_file_is_noticed() {

@@ -3,7 +3,7 @@ use super::raw::Residual;
 use crate::agreement::{agreed, together};
 use crate::correlation::mirror;
 use crate::dense::{self, product};
-use crate::ensemble::{Ensemble, check_dimensions, read_checked};
+use crate::ensemble::{Ensemble, read_checked};
 use crate::kernel::add_gram;
 use crate::mean::Mean;
 use crate::partial::extreme_of;
@@ -11,14 +11,17 @@ use crate::partition::{Partition, share};
 use crate::spectrum::Spectrum;
 use crate::{
     Decomposition, Execution, InnerProduct, ModeStore, Options, Pass, PodError, Reach,
-    ReducedBasis, SnapshotSource,
+    ReducedBasis, SnapshotSource, Truncation,
 };
 use faer::{Mat, MatRef, Scale};
 use std::cell::Cell;
 use std::ops::Range;
 
-/// Bytes of the rows whose mean is taken at a time.
-const MEAN_BYTES: usize = 16 << 20;
+/// Columns that are read at a time.
+const PANEL: usize = 64;
+
+/// The part of the memory that the rows take whose mean is formed at a time: one in so many.
+const MEAN_SHARE: u64 = 4;
 
 /// POD by the classical direct method, paper eqs. (2)-(3) (Lumley, 1967).
 ///
@@ -65,11 +68,14 @@ pub(super) fn stream(
     finish_in_space(&space, modes, spatial)
 }
 
-/// Snapshots of few unknowns, read by whole columns.
+/// Snapshots of few unknowns, read by whole columns: by rank 0 for all.
 pub(super) struct Space<'a> {
     ensemble: Ensemble<'a>,
+    /// The mean that is subtracted, on the rank that reads.
     mean: Option<Mean>,
-    /// `|F <u>|²` of the mean that is subtracted.
+    /// The same rounded, on all ranks.
+    field: Option<Vec<f64>>,
+    /// `|F <u>|²`.
     steady: f64,
     execution: Execution<'a>,
     passes: Cell<usize>,
@@ -89,49 +95,33 @@ impl<'a> Space<'a> {
         options: &'a Options,
         execution: Execution<'a>,
     ) -> Result<Self, PodError> {
-        let mut space = together(execution.ranks, Self::read(x, w, options, execution))?;
-        let Self { steady, ensemble, .. } = &mut space;
-        let energies = agreed(execution.ranks, || Ok(vec![*steady, ensemble.amplified]))?;
-        (*steady, ensemble.amplified) = (energies[0], energies[1]);
-        Ok(space)
-    }
-
-    fn read(
-        x: &'a dyn SnapshotSource,
-        w: &'a dyn InnerProduct,
-        options: &'a Options,
-        execution: Execution<'a>,
-    ) -> Result<Self, PodError> {
-        check_dimensions(x, w)?;
-        let (n, limit) = (x.dim(), options.memory_limit);
-        let bytes = 3 * 8 * (n as u128).pow(2);
-        if bytes > u128::from(limit) {
-            // With more snapshots than unknowns the exact algorithms need more still.
-            let remedy = if n < x.times().len() {
-                "raise the limit, or take `randomized` or `incremental`"
-            } else {
-                "take `snapshots` or `svd`, or raise the limit"
-            };
-            return Err(PodError::Memory { what: "the n x n correlation", bytes, limit, remedy });
-        }
-        let ensemble = Ensemble::for_sums(x, w, options, 1)?;
-        let mut space = Self { ensemble, mean: None, steady: 0.0, execution, passes: Cell::new(0) };
-        if options.center {
-            let mean = space.time_mean()?;
-            let mut u = Mat::from_fn(n, 1, |i, _| mean.field[i]);
-            w.factor(0..n, u.as_mut())?;
-            (space.mean, space.steady) = (Some(mean), u.squared_norm_l2());
-        }
-        if w.reach() == Reach::All {
-            space.ensemble.amplified = space.amplified()?;
-        }
+        let ensemble = Ensemble::for_columns(x, w, options);
+        let ensemble = ensemble.and_then(|e| check_memory(&e).map(|()| e));
+        let ensemble = together(execution.ranks, ensemble)?;
+        let passes = Cell::new(0);
+        let mut space = Self { ensemble, mean: None, field: None, steady: 0.0, execution, passes };
+        let mut mean = None;
+        let told = space.agreed(|| {
+            mean = options.center.then(|| space.time_mean()).transpose()?;
+            let field = mean.as_ref().map_or(&[][..], |mean| &mean.field);
+            let mut u = Mat::from_fn(field.len(), usize::from(mean.is_some()), |i, _| field[i]);
+            if mean.is_some() {
+                w.factor(0..x.dim(), u.as_mut())?;
+            }
+            let amplified = if w.reach() == Reach::All { space.amplified()? } else { 0.0 };
+            Ok([&[u.squared_norm_l2(), amplified], field].concat())
+        })?;
+        (space.steady, space.ensemble.amplified) = (told[0], told[1]);
+        (space.mean, space.field) = (mean, options.center.then(|| told[2..].to_vec()));
         Ok(space)
     }
 
     fn time_mean(&self) -> Result<Mean, PodError> {
         let (n, m) = self.ensemble.shape();
         let mut mean = Mean::default();
-        self.pass("mean", n, (MEAN_BYTES / (8 * m)).max(1), |rows| {
+        let fit = self.ensemble.options.memory_limit / (MEAN_SHARE * 8 * m as u64);
+        let few = usize::try_from(fit).unwrap_or(n).clamp(1, n);
+        self.pass("mean", n, few, |rows| {
             let mut x = Mat::zeros(rows.len(), m);
             read_checked(self.ensemble.source, rows, 0..m, x.as_mut())?;
             mean.extend(Mean::new(x.as_ref(), &self.ensemble.time_weights));
@@ -166,13 +156,13 @@ impl<'a> Space<'a> {
         Ok(z)
     }
 
-    /// A pass over whole columns, 64 at a time.
+    /// A pass over whole columns, some at a time.
     fn over_columns(
         &self,
         name: &'static str,
         part: impl FnMut(Range<usize>) -> Result<(), PodError>,
     ) -> Result<(), PodError> {
-        self.pass(name, self.ensemble.source.times().len(), 64, part)
+        self.pass(name, self.ensemble.source.times().len(), PANEL, part)
     }
 
     /// A pass over the snapshots, of whose rows or columns, so `many`, `part` takes `few` at a time.
@@ -217,6 +207,27 @@ impl<'a> Space<'a> {
     }
 }
 
+/// The n x n problem fits into the memory limit, with panels of columns and the coefficients.
+fn check_memory(ensemble: &Ensemble<'_>) -> Result<(), PodError> {
+    let ((n, m), options) = (ensemble.shape(), ensemble.options);
+    let kept = match options.truncation {
+        Truncation::Modes(modes) => modes.min(n).min(m),
+        Truncation::Energy(_) => n.min(m),
+    };
+    let numbers = 3 * (n as u128).pow(2) + (3 * PANEL * n) as u128 + kept as u128 * m as u128;
+    let (bytes, limit) = (8 * numbers, options.memory_limit);
+    if bytes <= u128::from(limit) {
+        return Ok(());
+    }
+    // With more snapshots than unknowns the exact algorithms need more still.
+    let remedy = if n < m {
+        "raise the limit, or take `randomized` or `incremental`"
+    } else {
+        "take `snapshots` or `svd`, or raise the limit"
+    };
+    Err(PodError::Memory { what: "the n x n correlation", bytes, limit, remedy })
+}
+
 pub(super) fn correlation_in_space(space: &Space<'_>) -> Result<Spatial, PodError> {
     let (n, m) = space.ensemble.shape();
     let found = space.agreed(|| {
@@ -256,10 +267,10 @@ pub(super) fn finish_in_space(
         phi.col_mut(k).iter_mut().for_each(|x| *x *= sign);
         coefficients.row_mut(k).iter_mut().for_each(|a| *a *= sign);
     }
-    together(ranks, modes.begin(n, kept, space.mean.is_some()).map_err(PodError::from))?;
+    together(ranks, modes.begin(n, kept, space.field.is_some()).map_err(PodError::from))?;
     let partition = space.ensemble.partition;
     let own = partition.rows_of(share(partition.leaves(), ranks.rank(), ranks.count()));
-    let mean = space.mean.as_ref().map(|mean| &mean.field[own.clone()]);
+    let mean = space.field.as_ref().map(|field| &field[own.clone()]);
     let published = modes.publish(own.clone(), phi.subrows(own.start, own.len()), mean);
     together(ranks, published.map_err(PodError::from))?;
     let parts = Parts { coefficients, note, residual, passes: space.passes() };

@@ -24,14 +24,14 @@ pub(super) const ROUND_OFF: f64 = 4.0 * f64::EPSILON;
 pub(super) struct Start {
     pub preconditioner: Preconditioner,
     /// Number of columns, the first, that are far from round-off.
-    resolved: usize,
+    pub resolved: usize,
     /// Square of the norm of each column before, nearly.
     squares: Vec<f64>,
 }
 
 impl Start {
     /// Whether the Gram matrix of the columns that were made loses nothing: those that are resolved are
-    /// independent, and what they leave of the others is so small that its square root is round-off.
+    /// independent, and what they leave of the others is so small that its square is round-off.
     pub fn is_sound(&self, gram: MatRef<'_, f64>) -> bool {
         let small = |k: usize| gram[(k, k)] <= f64::EPSILON * self.squares[k];
         are_independent(gram.get(..self.resolved, ..self.resolved), ENOUGH)

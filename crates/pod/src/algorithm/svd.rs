@@ -27,7 +27,7 @@ use faer::{Mat, MatRef};
 /// are graded, as in a decaying transient. Where the inner product couples all rows, entries that
 /// are right to `eps` of themselves leave an error of `4 eps sqrt(M sum_i W_ii <u_i²>)` instead.
 ///
-/// Cost 2 n M² flops, n M² more without the sketch, and three passes over the snapshots; where the inner product couples all
+/// Cost 2 n M² flops, n M² more without the sketch, and three passes over the snapshots (five where the sketch misses a direction); where the inner product couples all
 /// rows, one weighted copy of the snapshots is held in memory.
 ///
 /// # Errors
@@ -76,7 +76,7 @@ fn by_sketch(run: &Run<'_>) -> Result<Decomposition, PodError> {
     if run.agreed(|| Ok(vec![f64::from(u8::from(sound()))]))? != [1.0] {
         return by_correlation(run);
     }
-    let a = refined(&second, &start.preconditioner);
+    let a = refined(&second, &start.preconditioner, start.resolved);
     lift("svd", run, bi_orthogonal(run, a.as_ref(), second.steady)?)
 }
 
@@ -130,13 +130,16 @@ pub(super) fn triangular(
     }
     let preconditioner = Preconditioner { order: coarse.order, unit: coarse.unit };
     let second = correlation(run, "refinement", Some(&preconditioner))?;
-    Ok(refined(&second, &preconditioner))
+    Ok(refined(&second, &preconditioner, 0))
 }
 
 /// A from the Gram matrix of the columns that a preconditioner made.
-fn refined(second: &Correlation, preconditioner: &Preconditioner) -> Mat<f64> {
-    let (fine, m) =
-        (PivotedCholesky::new(second.matrix.as_ref(), ROUND_OFF), second.matrix.ncols());
+///
+/// * `first`: number of them that are known to be independent: they enter before the others
+fn refined(second: &Correlation, preconditioner: &Preconditioner, first: usize) -> Mat<f64> {
+    let (gram, m) = (second.matrix.as_ref(), second.matrix.ncols());
+    let floors: Vec<f64> = (0..m).map(|k| ROUND_OFF * gram[(k, k)]).collect();
+    let fine = PivotedCholesky::with_floors(gram, &floors, first);
     let unit = Mat::from_fn(m, m, |i, j| preconditioner.unit[(fine.order[i], j)]);
     let a = product(fine.factor().as_ref(), unit.as_ref());
     in_original_order(a.as_ref(), &preconditioner.order)

@@ -35,6 +35,7 @@ mod update;
 
 pub use incremental::incremental;
 pub(crate) use previous::Previous;
+pub(crate) use randomized::OVERSAMPLING;
 pub use randomized::randomized;
 pub use update::{OldBasis, update};
 

@@ -16,7 +16,7 @@ use faer::{Accum, Mat, MatRef, Par, Scale};
 use std::ops::Range;
 
 /// Columns more than modes that are asked for.
-const OVERSAMPLING: usize = 10;
+pub(crate) const OVERSAMPLING: usize = 10;
 /// Columns that are tried first where an energy is asked for.
 const FIRST: usize = 32;
 /// Passes that turn random columns towards the right singular vectors.

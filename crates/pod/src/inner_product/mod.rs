@@ -34,8 +34,9 @@ pub enum Reach {
 
 /// The inner product `(u, v) = uᵀ W v` of the space in which the modes are orthonormal, paper eq. (6).
 ///
-/// `W = Fᵀ F` is symmetric positive definite. The operations work in place on a block of columns
-/// and may read weights from a file, hence fail as files do.
+/// `W = Fᵀ F` is symmetric positive definite. The operations work in place on a block of columns, each of
+/// which is contiguous (those of this crate panic where they are not), and may read weights from a file,
+/// hence fail as files do.
 ///
 /// ```
 /// use faer::{MatMut, Scale};

@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    /// The limits of the documentation, for rows of equal weight and for few that hold everything.
+    /// The limits of the documentation, a little wider as these are those of long rows of numbers, for rows of equal weight and for few that hold everything.
     #[test]
     fn lengths_are_kept_for_every_combination_of_columns() {
         let m = 40;

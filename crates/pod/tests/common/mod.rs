@@ -2,10 +2,14 @@
 
 #![allow(dead_code, reason = "each test file takes what it needs")]
 
-use faer::{Mat, MatRef, Par};
+use faer::{Mat, MatMut, MatRef, Par};
 use lumley_pod::{
-    Diagonal, Identity, InnerProduct, Kronecker, MemorySnapshots, SparseSpd, Tridiagonal,
+    Diagonal, Identity, InnerProduct, Kronecker, MemorySnapshots, SnapshotSource, SparseSpd,
+    Tridiagonal,
 };
+use std::io;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Numbers in (-1, 1) from a linear congruential generator.
 pub fn random(seed: u64) -> impl FnMut() -> f64 {
@@ -99,6 +103,54 @@ pub fn times(m: usize) -> Vec<f64> {
 pub fn snapshots(x: Mat<f64>) -> MemorySnapshots {
     let times = times(x.ncols());
     MemorySnapshots::new(x, times)
+}
+
+struct Seen<'a, S> {
+    x: &'a MemorySnapshots,
+    see: S,
+}
+
+impl<S: Fn(&Range<usize>, &Range<usize>) -> io::Result<()> + Sync> SnapshotSource for Seen<'_, S> {
+    fn dim(&self) -> usize {
+        self.x.dim()
+    }
+
+    fn times(&self) -> &[f64] {
+        self.x.times()
+    }
+
+    fn block(
+        &self,
+        rows: Range<usize>,
+        cols: Range<usize>,
+        out: MatMut<'_, f64>,
+    ) -> io::Result<()> {
+        (self.see)(&rows, &cols)?;
+        self.x.block(rows, cols, out)
+    }
+}
+
+/// `x`, read in blocks alone, whose rows and columns `see` is told first: it may refuse them.
+pub fn seen(
+    x: &MemorySnapshots,
+    see: impl Fn(&Range<usize>, &Range<usize>) -> io::Result<()> + Sync,
+) -> impl SnapshotSource {
+    Seen { x, see }
+}
+
+/// What `work` makes of `x`, how many numbers it reads, and the most of them at once.
+pub fn counted<T>(
+    x: &MemorySnapshots,
+    work: impl FnOnce(&dyn SnapshotSource) -> T,
+) -> (T, usize, usize) {
+    let (numbers, largest) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let made = work(&seen(x, |rows, cols| {
+        let size = rows.len() * cols.len();
+        numbers.fetch_add(size, Ordering::Relaxed);
+        largest.fetch_max(size, Ordering::Relaxed);
+        Ok(())
+    }));
+    (made, numbers.into_inner(), largest.into_inner())
 }
 
 /// `Aᵀ W B`.

@@ -4,7 +4,7 @@ use super::PodInput;
 use crate::Error;
 use crate::case::PodChoice;
 use crate::directory::{DirectoryError, partial};
-use crate::manifest::{Input, Manifest};
+use crate::manifest::{Input, Machine, Manifest};
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
@@ -67,6 +67,8 @@ impl PodInput {
             format!("{truncation:?}"),
             format!("--center {center}"),
             format!("--skip-non-finite {skip_non_finite}"),
+            // Products round differently on others, and a pass must not end with another basis.
+            format!("processor {}", Machine::this().processor),
         ];
         options.into_iter().chain(files).collect()
     }
