@@ -1,4 +1,4 @@
-//! The ground under the models: grids, meshes, reference elements, quadrature, fields, and the
+//! The ground under the models: grids, meshes, reference elements, quadrature, spaces, fields, and the
 //! transfer of a field from a moving mesh to a fixed grid.
 //!
 //! This crate knows no equation, no body dynamics, no POD and no file.
@@ -6,15 +6,20 @@
 mod characteristic;
 pub mod element;
 mod field;
+pub mod geometry;
 mod grid;
 mod mesh;
 pub mod quadrature;
+pub mod space;
 pub mod transfer;
 
 pub use characteristic::characteristic;
 pub use field::MovingField;
 pub use grid::UniformGrid;
-pub use mesh::LineMesh;
+pub use mesh::{
+    Boundary, CellPlace, CellQuality, Edge, EdgePlace, Extreme, LineMesh, MeshDescription,
+    MeshError, MeshQuality, NamedBoundary, NodePlace, NodeRole, PlanarMesh, Side, Topology,
+};
 
 /// A point of the plane, in m. On a line the second coordinate is zero.
 pub type Point = [f64; 2];

@@ -5,38 +5,71 @@
 
 mod p1;
 mod p2;
+mod p2_bubble;
+mod q1;
+mod q2;
+mod tensor;
+mod triangle_p1;
+mod triangle_p2;
 
 pub use p1::P1;
 pub use p2::P2;
+pub use p2_bubble::P2Bubble;
+pub use q1::Q1;
+pub use q2::Q2;
+pub use triangle_p1::TriangleP1;
+pub use triangle_p2::TriangleP2;
 
 use crate::Point;
 
 /// The shape of a reference cell.
 ///
+/// Corners are numbered counterclockwise; edge k goes from corner k to the next.
+///
 /// ```
 /// use lumley_fem::element::Cell;
-/// assert_eq!(Cell::Interval.vertices(), 2);
+/// assert_eq!((Cell::Interval.vertices(), Cell::Triangle.edges()), (2, 3));
+/// assert_eq!(Cell::Quadrilateral.on_edge(2, 0.25), [0.75, 1.0]);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cell {
     /// The interval from 0 to 1; points have a second coordinate of zero.
     Interval,
+    /// The triangle (0, 0), (1, 0), (0, 1).
+    Triangle,
+    /// The unit square, from (0, 0) to (1, 1).
+    Quadrilateral,
 }
 
 impl Cell {
+    /// The corners.
+    pub fn corners(self) -> &'static [Point] {
+        match self {
+            Self::Interval => &[[0.0, 0.0], [1.0, 0.0]],
+            Self::Triangle => &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]],
+            Self::Quadrilateral => &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]],
+        }
+    }
+
     /// Number of corners.
     pub fn vertices(self) -> usize {
-        match self {
-            Self::Interval => 2,
-        }
+        self.corners().len()
     }
 
     /// Number of edges; an interval is its own interior and has none.
     pub fn edges(self) -> usize {
         match self {
             Self::Interval => 0,
+            Self::Triangle => 3,
+            Self::Quadrilateral => 4,
         }
+    }
+
+    /// The point at `s`, from 0 to 1, along edge `edge`.
+    pub fn on_edge(self, edge: usize, s: f64) -> Point {
+        let (a, b) = (self.corners()[edge], self.corners()[(edge + 1) % self.edges()]);
+        [0, 1].map(|d| a[d] * (1.0 - s) + b[d] * s)
     }
 }
 
@@ -66,6 +99,15 @@ impl DofLayout {
     pub fn nodes(self) -> usize {
         self.vertex * self.cell.vertices() + self.edge * self.cell.edges() + self.interior
     }
+
+    /// Numbers in the cell of the nodes on edge `edge`: at its start, at its end, between them.
+    pub fn on_edge(self, edge: usize) -> impl Iterator<Item = usize> {
+        let (vertex, count) = (self.vertex, self.edge);
+        let of_vertex = move |v: usize| v * vertex..(v + 1) * vertex;
+        let first = vertex * self.cell.vertices() + edge * count;
+        let ends = of_vertex(edge).chain(of_vertex((edge + 1) % self.cell.edges()));
+        ends.chain(first..first + count)
+    }
 }
 
 /// A Lagrange element on its reference cell: function `i` is one at node `i`, zero at the others.
@@ -89,97 +131,15 @@ pub trait Element: Sync {
 }
 
 /// Every element, with its name.
-pub const ELEMENTS: &[(&str, &dyn Element)] = &[("interval P1", &P1), ("interval P2", &P2)];
+pub const ELEMENTS: &[(&str, &dyn Element)] = &[
+    ("interval P1", &P1),
+    ("interval P2", &P2),
+    ("triangle P1", &TriangleP1),
+    ("triangle P2", &TriangleP2),
+    ("triangle P2 with bubble", &P2Bubble),
+    ("square Q1", &Q1),
+    ("square Q2", &Q2),
+];
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn tabulated(element: &dyn Element, point: Point) -> (Vec<f64>, Vec<Point>) {
-        let n = element.layout().nodes();
-        let (mut phi, mut dphi) = (vec![f64::NAN; n], vec![[f64::NAN; 2]; n]);
-        element.tabulate(point, &mut phi, &mut dphi);
-        (phi, dphi)
-    }
-
-    /// Points inside of a cell, away from its symmetries.
-    fn samples(cell: Cell) -> &'static [Point] {
-        match cell {
-            Cell::Interval => &[[0.07, 0.0], [0.37, 0.0], [0.81, 0.0]],
-        }
-    }
-
-    /// Directions in which a cell extends.
-    fn axes(cell: Cell) -> std::ops::Range<usize> {
-        match cell {
-            Cell::Interval => 0..1,
-        }
-    }
-
-    #[test]
-    fn functions_are_nodal() {
-        for (name, element) in ELEMENTS {
-            assert_eq!(element.nodes().len(), element.layout().nodes(), "{name}");
-            for (i, &node) in element.nodes().iter().enumerate() {
-                for (j, phi) in tabulated(*element, node).0.into_iter().enumerate() {
-                    let expected = f64::from(u8::from(i == j));
-                    assert!((phi - expected).abs() < 1e-15, "{name}: phi_{j}(node {i}) = {phi}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn functions_sum_to_one_and_gradients_to_zero() {
-        for (name, element) in ELEMENTS {
-            for &point in samples(element.layout().cell) {
-                let (phi, dphi) = tabulated(*element, point);
-                assert!((phi.iter().sum::<f64>() - 1.0).abs() < 1e-15, "{name}");
-                for d in [0, 1] {
-                    assert!(dphi.iter().map(|g| g[d]).sum::<f64>().abs() < 1e-14, "{name}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn gradients_are_the_limits_of_differences() {
-        let h = 1e-5;
-        for (name, element) in ELEMENTS {
-            for &point in samples(element.layout().cell) {
-                let (_, dphi) = tabulated(*element, point);
-                for d in axes(element.layout().cell) {
-                    let at = |s: f64| {
-                        let mut p = point;
-                        p[d] += s;
-                        tabulated(*element, p).0
-                    };
-                    for ((ahead, behind), g) in at(h).iter().zip(at(-h)).zip(&dphi) {
-                        let difference = (ahead - behind) / (2.0 * h);
-                        assert!((difference - g[d]).abs() < 1e-9, "{name}: {difference} {g:?}");
-                    }
-                }
-            }
-        }
-    }
-
-    /// The span holds every monomial up to the degree, and not the next.
-    #[test]
-    fn degree_is_what_is_reproduced() {
-        for (name, element) in ELEMENTS {
-            for power in 0..=element.degree() + 1 {
-                let monomial = |p: Point| p[0].powi(i32::try_from(power).expect("small"));
-                let worst = samples(element.layout().cell)
-                    .iter()
-                    .map(|&point| {
-                        let (phi, _) = tabulated(*element, point);
-                        let sum: f64 =
-                            phi.iter().zip(element.nodes()).map(|(f, &n)| f * monomial(n)).sum();
-                        (sum - monomial(point)).abs()
-                    })
-                    .fold(0.0, f64::max);
-                assert_eq!(worst < 1e-14, power <= element.degree(), "{name}, x^{power}: {worst}");
-            }
-        }
-    }
-}
+mod tests;

@@ -1,5 +1,3 @@
-//! Quadrature on reference cells.
-
 use std::f64::consts::PI;
 
 /// The Gauss-Legendre rule of `n` points on the interval from 0 to 1: pairs of point and weight.

@@ -1,0 +1,9 @@
+//! Finite-element functions on a planar mesh: which unknowns a cell has and what they mean.
+
+mod dofs;
+mod linear_pressure;
+mod nodal;
+
+pub use dofs::DofMap;
+pub use linear_pressure::LinearPressure;
+pub use nodal::NodalSpace;
