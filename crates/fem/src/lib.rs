@@ -19,6 +19,7 @@ pub use grid::UniformGrid;
 pub use mesh::{
     Boundary, CellPlace, CellQuality, Edge, EdgePlace, Extreme, LineMesh, MeshDescription,
     MeshError, MeshQuality, NamedBoundary, NodePlace, NodeRole, PlanarMesh, Side, Topology,
+    generate,
 };
 
 /// A point of the plane, in m. On a line the second coordinate is zero.

@@ -4,6 +4,7 @@ mod cells;
 mod check;
 mod description;
 mod error;
+pub mod generate;
 mod jacobian;
 mod line;
 mod place;

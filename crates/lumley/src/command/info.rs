@@ -1,17 +1,20 @@
 use super::say;
 use crate::Error;
 use crate::directory::DirectoryError;
+use crate::format::gmsh;
 use crate::format::npy::NpyMatrix;
 use crate::format::npz::NpzReader;
 use crate::manifest::MANIFEST;
 use crate::record::{Record, Support};
 use crate::run;
 use clap::Args;
+use lumley_fem::quadrature::gauss_legendre;
+use lumley_fem::{MeshDescription, Point};
 use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// A run directory, a record, an NPY or an NPZ file
+    /// A run directory, a record, an NPY or an NPZ file, a mesh of gmsh
     #[arg(value_name = "FILE|DIR")]
     path: PathBuf,
 }
@@ -28,6 +31,8 @@ impl Arguments {
             Err(DirectoryError::NotARun { path: path.clone() }.into())
         } else if ending.as_deref() == Some("npz") {
             archive(path)
+        } else if ending.as_deref() == Some("msh") {
+            mesh(path)
         } else {
             array(&NpyMatrix::open(path)?, "array")
         }
@@ -86,4 +91,29 @@ fn archive(path: &Path) -> Result<(), Error> {
 
 fn array(matrix: &NpyMatrix, name: &str) -> Result<(), Error> {
     say(&format!("{name:<15} shape {:?}, {}", matrix.shape(), matrix.dtype()))
+}
+
+fn mesh(path: &Path) -> Result<(), Error> {
+    let mesh = gmsh::read(path)?;
+    let (triangles, quadrilaterals) = (mesh.triangles.len(), mesh.quadrilaterals.len());
+    say(&format!("mesh            {triangles} triangles, {quadrilaterals} quadrilaterals"))?;
+    say(&format!("nodes           {}", mesh.points.len()))?;
+    for boundary in &mesh.boundaries {
+        let length: f64 = boundary.edges.iter().map(|edge| edge_length(&mesh, *edge)).sum();
+        let (name, edges) = (&boundary.name, boundary.edges.len());
+        say(&format!("boundary        {name}: {edges} edges, {length:.6} m"))?;
+    }
+    Ok(())
+}
+
+/// Length of a quadratic edge, in m.
+fn edge_length(mesh: &MeshDescription, edge: [usize; 3]) -> f64 {
+    let [a, b, middle]: [Point; 3] = edge.map(|node| mesh.points[node]);
+    let speed = |t: f64| {
+        let slope = |d: usize| {
+            (4.0 * t - 3.0) * a[d] + (4.0 * t - 1.0) * b[d] + (4.0 - 8.0 * t) * middle[d]
+        };
+        slope(0).hypot(slope(1))
+    };
+    gauss_legendre(5).into_iter().map(|(t, weight)| weight * speed(t)).sum()
 }

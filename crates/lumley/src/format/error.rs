@@ -1,3 +1,4 @@
+use super::gmsh::GmshError;
 use lumley_pod::InnerProductError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -77,6 +78,14 @@ pub enum FormatError {
         path: PathBuf,
         /// What is wrong with them.
         source: InnerProductError,
+    },
+    /// A file of gmsh that holds no mesh of the plane with named boundaries.
+    #[error("{}: {source}", path.display())]
+    Gmsh {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with the mesh.
+        source: GmshError,
     },
     /// There is not one time for each snapshot.
     #[error("{}: {snapshots} snapshots, but {times} times\n  help: give one time for each snapshot", path.display())]

@@ -1,11 +1,12 @@
-//! Files of other programs: NumPy arrays ([`npy`], [`npz`]) and tables ([`csv`]), read strictly and
-//! written whole or not at all ([`atomic`]).
+//! Files of other programs: NumPy arrays ([`npy`], [`npz`]), tables ([`csv`]) and meshes of gmsh ([`gmsh`]),
+//! read strictly; files of lumley are written whole or not at all ([`atomic`]).
 //!
 //! A size that a file claims is checked against the file before anything is allocated for it.
 
 pub mod atomic;
 pub mod csv;
 mod error;
+pub mod gmsh;
 pub mod npy;
 pub mod npz;
 pub(crate) mod positioned;
