@@ -1,42 +1,13 @@
 //! Looking for tangled cells and mapping points allocate nothing: both happen in every step.
 
-// A global allocator is unsafe to write; this one counts and passes on.
-#![allow(unsafe_code)]
+mod counting;
 
+use counting::allocations;
 use lumley_fem::element::{Cell, Q2};
 use lumley_fem::geometry::{Mapped, Tabulated};
 use lumley_fem::quadrature::rule;
 use lumley_fem::space::LinearPressure;
 use lumley_fem::{MeshDescription, PlanarMesh};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell as Counter;
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Counter<usize> = const { Counter::new(0) };
-}
-
-// SAFETY: every call goes to the system's allocator as it came.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(memory, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
-fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.get();
-    work();
-    ALLOCATIONS.get() - before
-}
 
 /// An edge is so bent that its cell has to be quartered before it is proven.
 #[test]
@@ -48,18 +19,18 @@ fn checks_and_maps_allocate_nothing() {
     let mesh = PlanarMesh::new(description).expect("valid");
     let table = Tabulated::on(&Q2, &rule(Cell::Quadrilateral, 5));
     let mut sum = 0.0;
-    let count = allocations(|| {
-        mesh.check().expect("valid");
-        for q in 0..mesh.topology().quadrilaterals().len() {
-            let nodes = mesh.quadrilateral(q);
-            let mapped = || table.iter().map(|at| Mapped::new(&nodes, at));
-            let pressure = LinearPressure::centred(mapped().map(|m| (m.point, m.weight)));
-            for (at, mapped) in table.iter().zip(mapped()) {
-                let gradients = mapped.gradients(&at.dphi);
-                sum += mapped.weight * gradients[0][0] * pressure.values(mapped.point)[1];
-            }
+    let before = allocations();
+    mesh.check().expect("valid");
+    for q in 0..mesh.topology().quadrilaterals().len() {
+        let nodes = mesh.quadrilateral(q);
+        let mapped = || table.iter().map(|at| Mapped::new(&nodes, at));
+        let pressure = LinearPressure::centred(mapped().map(|m| (m.point, m.weight)));
+        for (at, mapped) in table.iter().zip(mapped()) {
+            let gradients = mapped.gradients(&at.dphi);
+            sum += mapped.weight * gradients[0][0] * pressure.values(mapped.point)[1];
         }
-    });
+    }
+    let count = allocations() - before;
     assert!(sum.is_finite());
     assert_eq!(count, 0);
 }

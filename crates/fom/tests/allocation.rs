@@ -1,47 +1,24 @@
 //! A step allocates nothing.
 
-// A global allocator is unsafe to write; this one counts and passes on.
-#![allow(unsafe_code)]
-
 mod canonical;
+#[path = "../../fem/tests/counting/mod.rs"]
+mod counting;
 
+use counting::allocations;
 use lumley_fom::{Piston, PistonError, TimeScheme};
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: every call goes to the system's allocator as it came.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(memory, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
 
 #[test]
 fn steps_allocate_nothing() -> Result<(), PistonError> {
     for scheme in [TimeScheme::ImplicitEuler, TimeScheme::CrankNicolson, TimeScheme::Bdf2] {
         for degree in [1, 2] {
-            let start = ALLOCATIONS.get();
+            let start = allocations();
             let mut piston = Piston::new(&canonical::parameters(1.0), 50, degree, scheme)?;
-            let built = ALLOCATIONS.get();
+            let built = allocations();
             assert!(built > start, "the counter counts");
             for _ in 0..100 {
                 piston.step(1e-3)?;
             }
-            assert_eq!(ALLOCATIONS.get(), built, "{scheme:?}, degree {degree}");
+            assert_eq!(allocations(), built, "{scheme:?}, degree {degree}");
         }
     }
     Ok(())

@@ -1,37 +1,15 @@
 //! After the first system the linear solvers allocate nothing.
 
-// A global allocator is unsafe to write; this one counts and passes on.
-#![allow(unsafe_code)]
+#[path = "../../fem/tests/counting/mod.rs"]
+mod counting;
 
+use counting::allocations;
 use faer::Par;
 use lumley_fom::linear::{
     Analysis, CellUnknowns, DelayedUnknowns, GmresLimits, LaggedSolver, Multifrontal, RenewalPolicy,
 };
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::error::Error;
 use std::sync::Arc;
-
-struct Counting;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: every call goes to the system's allocator as it came.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(memory, layout) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
 
 /// Three unknowns at each node of a square grid of bilinear cells, so that the upper fronts are large.
 fn grid(cells: usize) -> (Arc<Analysis>, Vec<f64>) {
@@ -51,7 +29,7 @@ fn grid(cells: usize) -> (Arc<Analysis>, Vec<f64>) {
 
 #[test]
 fn only_the_first_system_allocates() -> Result<(), Box<dyn Error>> {
-    let start = ALLOCATIONS.get();
+    let start = allocations();
     let (analysis, mut matrices) = grid(24);
     let count = analysis.cells().count();
     let mut lu = Multifrontal::<f64>::new(analysis.clone(), Par::Seq);
@@ -70,10 +48,10 @@ fn only_the_first_system_allocates() -> Result<(), Box<dyn Error>> {
         lagged.solve(&matrices, &b, &mut x)?;
         matrices.iter_mut().step_by(13).for_each(|a| *a *= 1.001);
         if step == 0 {
-            built = ALLOCATIONS.get();
+            built = allocations();
             assert!(built > start, "the counter counts");
         }
     }
-    assert_eq!(ALLOCATIONS.get(), built);
+    assert_eq!(allocations(), built);
     Ok(())
 }

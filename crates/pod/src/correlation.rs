@@ -5,7 +5,7 @@ use crate::kernel::{add_gram, solve_right};
 use crate::partial::Partial;
 use crate::run::Run;
 use crate::{InnerProduct, PodError};
-use faer::Mat;
+use faer::{Mat, MatRef};
 use std::ops::Range;
 
 /// `Zᵀ Z` with `Z = F X`, in full, and the energy of the mean that was subtracted.
@@ -61,6 +61,14 @@ fn energy(product: &dyn InnerProduct, rows: &Range<usize>, field: &[f64]) -> Res
     let mut u = Mat::from_fn(support(product, rows).len(), 1, |i, _| field[i]);
     product.factor(rows.clone(), u.as_mut())?;
     Ok(u.subrows(0, rows.len()).squared_norm_l2())
+}
+
+/// `Zᵀ Z` of few rows, in full.
+pub(crate) fn gram(z: MatRef<'_, f64>) -> Mat<f64> {
+    let mut g = Mat::zeros(z.ncols(), z.ncols());
+    add_gram(g.as_mut(), z);
+    mirror(&mut g);
+    g
 }
 
 /// Completes a symmetric matrix from its lower triangle.

@@ -67,6 +67,17 @@ impl Plan {
     }
 }
 
+/// What is left of the `limit` beside so many bytes.
+pub(crate) fn memory_left(
+    limit: u64,
+    bytes: u128,
+    what: &'static str,
+    remedy: &'static str,
+) -> Result<u64, PodError> {
+    let left = u64::try_from(bytes).ok().and_then(|bytes| limit.checked_sub(bytes));
+    left.ok_or(PodError::Memory { what, bytes, limit, remedy })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

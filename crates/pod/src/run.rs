@@ -55,6 +55,11 @@ impl<'a> Run<'a> {
         agreed(self.execution.ranks, find)
     }
 
+    /// Whether something holds, as rank 0 finds it for all.
+    pub fn agree(&self, find: impl FnOnce() -> bool) -> Result<bool, PodError> {
+        Ok(self.agreed(|| Ok(vec![f64::from(u8::from(find()))]))? == [1.0])
+    }
+
     /// Whether all ranks may go on after what each has done to its files.
     pub fn all_or_none(&self, mine: io::Result<()>) -> Result<(), PodError> {
         together(self.execution.ranks, mine.map_err(PodError::from))

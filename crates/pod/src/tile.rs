@@ -84,7 +84,7 @@ impl Ensemble<'_> {
     }
 }
 
-impl Tile<'_> {
+impl<'t> Tile<'t> {
     /// Its rows in pieces to be weighted at a time. They are whole blocks: sums are taken block by block,
     /// as a tile depends on the memory that may be taken and sums must not.
     pub fn pieces(&self, ensemble: &Ensemble<'_>) -> impl Iterator<Item = Range<usize>> + use<> {
@@ -93,7 +93,7 @@ impl Tile<'_> {
     }
 
     /// The snapshots on a piece and on the rows after it that the inner product reaches.
-    pub fn on(&self, ensemble: &Ensemble<'_>, piece: &Range<usize>) -> MatRef<'_, f64> {
+    pub fn on(&self, ensemble: &Ensemble<'_>, piece: &Range<usize>) -> MatRef<'t, f64> {
         let rows = support(ensemble.product, piece);
         self.x.subrows(rows.start - self.rows.start, rows.len())
     }
@@ -105,9 +105,8 @@ impl Tile<'_> {
         piece: &Range<usize>,
         columns: &[usize],
     ) -> Result<MatMut<'_, f64>, PodError> {
-        let rows = support(ensemble.product, piece);
-        let x = self.x.subrows(rows.start - self.rows.start, rows.len());
-        let mut z = self.scratch.as_mut().submatrix_mut(0, 0, rows.len(), columns.len());
+        let x = self.on(ensemble, piece);
+        let mut z = self.scratch.as_mut().submatrix_mut(0, 0, x.nrows(), columns.len());
         ensemble.product.factor_columns(piece.clone(), x, columns, z.as_mut())?;
         Ok(z.subrows_mut(0, piece.len()))
     }

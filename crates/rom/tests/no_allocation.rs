@@ -1,41 +1,17 @@
 //! A step of a reduced model allocates nothing.
-#![allow(unsafe_code, reason = "only an allocator can count allocations, and its trait is unsafe")]
 
+#[path = "../../fem/tests/counting/mod.rs"]
+mod counting;
 #[path = "../src/manufactured.rs"]
 mod manufactured;
 
+use counting::allocations;
 use lumley_body::joint::Prismatic;
 use lumley_fem::UniformGrid;
 use lumley_rom::{
     Basis, ClosureKind, EddyViscosity, Integrator, ModelChoice, Multiplier, Penalty, PistonPhysics,
     PistonStart, ProjectionKind, ReducedError, ReducedPiston, Rosenbrock,
 };
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
-
-thread_local! {
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-/// The system's allocator, counting for each thread.
-struct Counting;
-
-// SAFETY: every call goes to the system's allocator unchanged.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.with(|count| count.set(count.get() + 1));
-        // SAFETY: the caller's promises are passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promises are passed on.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 /// Four modes in the frame of `projection`, and a mean if they are `centred`.
 fn basis(projection: ProjectionKind, centred: bool) -> Result<Basis, ReducedError> {
@@ -55,13 +31,13 @@ fn basis(projection: ProjectionKind, centred: bool) -> Result<Basis, ReducedErro
 /// Steps until the block has crossed three cells of the grid; returns the allocations on the way.
 fn allocations_over_three_cells(piston: &mut ReducedPiston) -> Result<usize, ReducedError> {
     let start = piston.body().position[0];
-    let before = ALLOCATIONS.with(Cell::get);
+    let before = allocations();
     assert!(before > 0, "the allocator counts");
     while piston.body().position[0] < start + 3.0 * 1.1 / 60.0 {
         assert!(piston.time() < 1.0, "the block does not move");
         piston.step(2e-4)?;
     }
-    Ok(ALLOCATIONS.with(Cell::get) - before)
+    Ok(allocations() - before)
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::kernel::add_gram;
 use crate::mean::Mean;
 use crate::partial::extreme_of;
 use crate::partition::{Partition, share};
+use crate::plan::memory_left;
 use crate::spectrum::Spectrum;
 use crate::{
     Decomposition, Execution, InnerProduct, ModeStore, Options, Pass, PodError, Reach,
@@ -215,17 +216,13 @@ fn check_memory(ensemble: &Ensemble<'_>) -> Result<(), PodError> {
         Truncation::Energy(_) => n.min(m),
     };
     let numbers = 3 * (n as u128).pow(2) + (3 * PANEL * n) as u128 + kept as u128 * m as u128;
-    let (bytes, limit) = (8 * numbers, options.memory_limit);
-    if bytes <= u128::from(limit) {
-        return Ok(());
-    }
     // With more snapshots than unknowns the exact algorithms need more still.
     let remedy = if n < m {
         "raise the limit, or take `randomized` or `incremental`"
     } else {
         "take `snapshots` or `svd`, or raise the limit"
     };
-    Err(PodError::Memory { what: "the n x n correlation", bytes, limit, remedy })
+    memory_left(options.memory_limit, 8 * numbers, "the n x n correlation", remedy).map(|_| ())
 }
 
 pub(super) fn correlation_in_space(space: &Space<'_>) -> Result<Spatial, PodError> {

@@ -3,9 +3,9 @@
 use super::svd::ENOUGH;
 use crate::PodError;
 use crate::contiguous::gather;
-use crate::correlation::{Preconditioner, mirror};
+use crate::correlation::{Preconditioner, gram};
 use crate::dense::{PivotedCholesky, are_independent, product};
-use crate::kernel::{COPIES, Sketch, add_gram, solve_right};
+use crate::kernel::{COPIES, Sketch, solve_right};
 use crate::partial::Partial;
 use crate::run::Run;
 use faer::{Mat, MatRef};
@@ -108,13 +108,6 @@ fn start(s: MatRef<'_, f64>) -> Option<Start> {
     let order: Vec<usize> = fine.order.iter().map(|&k| coarse.order[k]).collect();
     let squares = order.iter().map(|&j| squares[(j, j)] / COPIES as f64).collect();
     Some(Start { preconditioner: Preconditioner { order, unit }, resolved: fine.resolved, squares })
-}
-
-fn gram(x: MatRef<'_, f64>) -> Mat<f64> {
-    let mut g = Mat::zeros(x.ncols(), x.ncols());
-    add_gram(g.as_mut(), x);
-    mirror(&mut g);
-    g
 }
 
 #[cfg(test)]

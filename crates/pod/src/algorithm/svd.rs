@@ -72,8 +72,7 @@ fn sketch_pays([n, m]: [usize; 2]) -> bool {
 fn by_sketch(run: &Run<'_>) -> Result<Decomposition, PodError> {
     let Some(start) = sketched(run)? else { return by_correlation(run) };
     let second = correlation(run, "refinement", Some(&start.preconditioner))?;
-    let sound = || start.is_sound(second.matrix.as_ref());
-    if run.agreed(|| Ok(vec![f64::from(u8::from(sound()))]))? != [1.0] {
+    if !run.agree(|| start.is_sound(second.matrix.as_ref()))? {
         return by_correlation(run);
     }
     let a = refined(&second, &start.preconditioner, start.resolved);
@@ -120,12 +119,8 @@ pub(super) fn triangular(
 ) -> Result<Mat<f64>, PodError> {
     let (n, m) = run.ensemble.shape();
     let coarse = PivotedCholesky::new(first.matrix.as_ref(), squares_floor(m));
-    let enough = run.agreed(|| {
-        let all = coarse.resolved == m.min(n) && m <= n;
-        let enough = all && are_independent(first.matrix.as_ref(), sufficient);
-        Ok(vec![f64::from(u8::from(enough))])
-    })?;
-    if enough == [1.0] {
+    let all = coarse.resolved == m.min(n) && m <= n;
+    if run.agree(|| all && are_independent(first.matrix.as_ref(), sufficient))? {
         return Ok(in_original_order(coarse.factor().as_ref(), &coarse.order));
     }
     let preconditioner = Preconditioner { order: coarse.order, unit: coarse.unit };

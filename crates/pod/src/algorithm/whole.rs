@@ -2,6 +2,7 @@
 
 use crate::ensemble::Ensemble;
 use crate::partial::extreme_of;
+use crate::plan::memory_left;
 use crate::run::Run;
 use crate::snapshots::MemorySnapshots;
 use crate::{
@@ -9,6 +10,10 @@ use crate::{
     SnapshotSource, time_weights,
 };
 use faer::{ColRef, Mat};
+
+/// What to do where whole columns do not fit.
+pub(crate) const COUPLED: &str =
+    "raise the limit, or take weights for each unknown or the product of a grid";
 
 /// Decomposes `F X` in the Euclidean product; the modes are `F⁻¹` of what comes of it.
 ///
@@ -25,8 +30,13 @@ pub(super) fn with_columns(
     if execution.ranks.count() > 1 {
         return Err(PodError::WholeColumns { ranks: execution.ranks.count() });
     }
+    let memory_limit = memory_left(
+        options.memory_limit,
+        8 * x.dim() as u128 * x.times().len() as u128,
+        "the snapshots, which an inner product of coupled rows needs whole,",
+        COUPLED,
+    )?;
     let (z, amplified) = weighted(x, w, options)?;
-    let memory_limit = options.memory_limit - 8 * (z.nrows() * z.ncols()) as u64;
     let options = Options { memory_limit, ..options.clone() };
     let z = MemorySnapshots::new(z, x.times().to_vec());
     let identity = Identity::new(w.dim());
@@ -58,15 +68,6 @@ fn weighted(
     options: &Options,
 ) -> Result<(Mat<f64>, f64), PodError> {
     let (n, m) = (x.dim(), x.times().len());
-    let (bytes, limit) = (8 * n as u128 * m as u128, options.memory_limit);
-    if bytes > u128::from(limit) {
-        return Err(PodError::Memory {
-            what: "the snapshots, which an inner product of coupled rows needs whole,",
-            bytes,
-            limit,
-            remedy: "raise the limit, or take weights for each unknown or the product of a grid",
-        });
-    }
     let mut z = Mat::zeros(n, m);
     crate::ensemble::read_checked(x, 0..n, 0..m, z.as_mut())?;
     let diagonal = w.diagonal()?;

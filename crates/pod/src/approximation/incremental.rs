@@ -1,6 +1,7 @@
 use super::update::{OldBasis, joined};
 use crate::algorithm::svd;
 use crate::ensemble::{check_dimensions, check_truncation};
+use crate::plan::memory_left;
 use crate::time_weights::normalised;
 use crate::{
     Decomposition, Execution, InnerProduct, MemoryModes, ModeStore, Options, PodError,
@@ -148,15 +149,13 @@ impl Sets<'_> {
 
     /// The options for a set, with what is left of the memory beside the modes, old and new.
     fn options_of(&self, set: &Range<usize>, kept: usize) -> Result<Options, PodError> {
-        let limit = self.options.memory_limit;
         let bytes = 2 * 8 * self.x.dim() as u128 * (kept as u128 + 1);
-        let left = u128::from(limit).checked_sub(bytes).and_then(|left| u64::try_from(left).ok());
-        let memory_limit = left.ok_or(PodError::Memory {
-            what: "the modes between two sets of snapshots",
+        let memory_limit = memory_left(
+            self.options.memory_limit,
             bytes,
-            limit,
-            remedy: "raise the limit, ask for fewer modes, or take `randomized` or `svd`",
-        })?;
+            "the modes between two sets of snapshots",
+            "raise the limit, ask for fewer modes, or take `randomized` or `svd`",
+        )?;
         let is_last = set.end == self.weights.len();
         let asked = self.options.truncation;
         Ok(Options {

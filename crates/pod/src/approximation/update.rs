@@ -2,9 +2,11 @@ use super::Previous;
 use crate::agreement::together;
 use crate::algorithm::finish::singular_values;
 use crate::algorithm::svd::by_correlation;
+use crate::algorithm::whole::COUPLED;
 use crate::algorithm::with_rows;
 use crate::dense::product;
 use crate::ensemble::check_dimensions;
+use crate::plan::memory_left;
 use crate::run::Run;
 use crate::{
     Decomposition, Execution, InnerProduct, MemoryModes, ModeSource, ModeStore, Options, PodError,
@@ -164,15 +166,9 @@ fn weighted(
     options: &Options,
 ) -> Result<MemoryModes, PodError> {
     let (n, size) = (old.modes.dim(), old.decomposition.size());
-    let (bytes, limit) = (8 * n as u128 * (size as u128 + 1), options.memory_limit);
-    if bytes > u128::from(limit) {
-        return Err(PodError::Memory {
-            what: "the old modes, which an inner product of coupled rows needs whole,",
-            bytes,
-            limit,
-            remedy: "raise the limit, or take weights for each unknown or the product of a grid",
-        });
-    }
+    let bytes = 8 * n as u128 * (size as u128 + 1);
+    let what = "the old modes, which an inner product of coupled rows needs whole,";
+    memory_left(options.memory_limit, bytes, what, COUPLED)?;
     let mean = old.modes.mean_of(0..n)?;
     let mut columns = Mat::zeros(n, size + 1);
     old.modes.block(0..n, columns.as_mut().subcols_mut(0, size))?;

@@ -85,7 +85,7 @@ fn sign(row: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kernel::add_gram;
+    use crate::correlation::gram;
     use faer::Mat;
 
     fn sketch(z: &Mat<f64>, blocks: usize) -> Mat<f64> {
@@ -124,15 +124,10 @@ mod tests {
         let spread = Mat::from_fn(20_000, m, |i, j| ((i * i + 31 * j + 7 * i * j) as f64).sin());
         let few = Mat::from_fn(20_000, m, |i, j| if i % 317 == 3 { spread[(i, j)] } else { 0.0 });
         for z in [spread, few] {
-            let gram = |x: &Mat<f64>| {
-                let mut g = Mat::zeros(m, m);
-                add_gram(g.as_mut(), x.as_ref());
-                crate::correlation::mirror(&mut g);
-                g
-            };
-            let r = crate::dense::cholesky_upper(gram(&z).as_ref()).expect("independent columns");
+            let r = crate::dense::cholesky_upper(gram(z.as_ref()).as_ref())
+                .expect("independent columns");
             let inverse = crate::dense::upper_inverse(r.as_ref()).expect("independent columns");
-            let change = gram(&(sketch(&z, 9) * inverse * faer::Scale(0.5)));
+            let change = gram((sketch(&z, 9) * inverse * faer::Scale(0.5)).as_ref());
             let (values, _) = crate::dense::eigen_descending(change.as_ref()).expect("values");
             assert!(values[m - 1] > 0.05 && values[0] < 3.5, "{} to {}", values[m - 1], values[0]);
         }
