@@ -52,6 +52,15 @@ impl TimeScheme {
             _ => RateFormula { new: 2.0 / dt, now: -2.0 / dt, before: 0.0, rate: -1.0 },
         }
     }
+
+    /// The same for a flow, whose impulsive start Crank-Nicolson would not damp: where BDF2 cannot be taken,
+    /// implicit Euler is.
+    pub(crate) fn damping_formula(self, dt: f64, previous: Option<f64>) -> RateFormula {
+        match previous.filter(|previous| dt <= LARGEST_GROWTH * previous) {
+            Some(_) => self.formula(dt, previous),
+            None => Self::ImplicitEuler.formula(dt, None),
+        }
+    }
 }
 
 /// BDF2 with the step ratio `r`.

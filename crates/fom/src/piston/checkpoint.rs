@@ -1,5 +1,5 @@
-use super::{CheckpointError, Piston};
-use crate::TimeScheme;
+use super::Piston;
+use crate::{CheckpointError, TimeScheme, checkpoint};
 use std::io::{self, Read, Write};
 
 /// First word of every checkpoint: the format and its version.
@@ -12,10 +12,7 @@ impl Piston {
     /// # Errors
     /// The failure of the medium.
     pub fn save(&self, to: &mut dyn Write) -> io::Result<()> {
-        let mut words: Vec<u64> = self.identity().iter().map(|(_, word)| *word).collect();
-        words.extend(self.state().map(f64::to_bits));
-        words.push(checksum(&words));
-        words.iter().try_for_each(|word| to.write_all(&word.to_le_bytes()))
+        checkpoint::write(to, &self.identity(), self.state())
     }
 
     /// Takes up a checkpoint; on an error the piston stays as it was.
@@ -25,28 +22,7 @@ impl Piston {
     /// # Errors
     /// Every variant of [`CheckpointError`].
     pub fn restore(&mut self, from: &mut dyn Read) -> Result<(), CheckpointError> {
-        let mut words = Vec::new();
-        for (name, own) in self.identity() {
-            let word = read_word(from)?;
-            if word != own {
-                return Err(match name {
-                    "format" => CheckpointError::Damaged("not a checkpoint of this version"),
-                    _ => CheckpointError::Mismatch(name),
-                });
-            }
-            words.push(word);
-        }
-        let header = words.len();
-        for _ in 0..self.state().count() {
-            words.push(read_word(from)?);
-        }
-        if read_word(from)? != checksum(&words) {
-            return Err(CheckpointError::Damaged("checksum"));
-        }
-        let state: Vec<f64> = words[header..].iter().map(|&word| f64::from_bits(word)).collect();
-        if !state.iter().all(|value| value.is_finite()) {
-            return Err(CheckpointError::Damaged("a value is not finite"));
-        }
+        let state = checkpoint::read(from, &self.identity(), self.state().count())?;
         self.take(&state);
         Ok(())
     }
@@ -101,16 +77,4 @@ impl Piston {
         }
         self.show_body();
     }
-}
-
-fn read_word(from: &mut dyn Read) -> io::Result<u64> {
-    let mut bytes = [0; 8];
-    from.read_exact(&mut bytes)?;
-    Ok(u64::from_le_bytes(bytes))
-}
-
-/// Fowler-Noll-Vo hash (FNV-1a, 64 bits) of the words: finds any damage to a single word.
-fn checksum(words: &[u64]) -> u64 {
-    let mix = |hash: u64, word: &u64| (hash ^ word).wrapping_mul(0x0100_0000_01b3);
-    words.iter().fold(0xcbf2_9ce4_8422_2325, mix)
 }

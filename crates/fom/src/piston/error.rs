@@ -1,5 +1,4 @@
 use lumley_body::joint::JointError;
-use std::io;
 
 /// Why a piston cannot be built or cannot make a step.
 ///
@@ -125,26 +124,4 @@ pub enum PistonError {
 
 fn list(residuals: &[f64]) -> String {
     residuals.iter().map(|r| format!("{r:.1e}")).collect::<Vec<_>>().join(", ")
-}
-
-/// Why a checkpoint cannot be taken up.
-///
-/// ```
-/// use lumley_fom::CheckpointError;
-/// let error = CheckpointError::Damaged("checksum");
-/// assert_eq!(error.to_string(), "the piston's checkpoint is damaged (checksum): start again or take an older one");
-/// ```
-#[derive(Debug, thiserror::Error)]
-pub enum CheckpointError {
-    /// The medium failed, or the data end too early.
-    #[error("the piston's checkpoint cannot be read: {0}")]
-    Io(#[from] io::Error),
-    /// The data are not what was written.
-    #[error("the piston's checkpoint is damaged ({0}): start again or take an older one")]
-    Damaged(&'static str),
-    /// The data belong to a piston with other parameters, mesh or scheme.
-    #[error(
-        "the checkpoint belongs to another piston, its {0} differs: restore it with the case that wrote it"
-    )]
-    Mismatch(&'static str),
 }

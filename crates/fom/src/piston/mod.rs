@@ -13,7 +13,7 @@ mod tensors;
 #[cfg(test)]
 mod uniform_flow;
 
-pub use error::{CheckpointError, PistonError};
+pub use error::PistonError;
 pub use forcing::Forcing;
 pub use newton::PistonStep;
 pub use parameters::{InitialFlow, PistonParameters};

@@ -1,0 +1,139 @@
+use crate::linear::LaggedError;
+use crate::motion::MotionError;
+use lumley_fem::Point;
+use thiserror::Error;
+
+/// Why a flow cannot be set up or go on.
+///
+/// ```
+/// use lumley_fom::flow::FlowError;
+/// let error = FlowError::NoCondition { boundary: "inlet".into() };
+/// assert!(error.to_string().contains("inlet"));
+/// ```
+#[derive(Debug, Error)]
+pub enum FlowError {
+    /// A parameter cannot be computed with.
+    #[error("{name} = {value:?} {unit}: expected a positive, finite number")]
+    Parameter {
+        /// Its name.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The time scheme does not damp, which a flow that starts impulsively needs.
+    #[error(
+        "the flow takes implicit-euler or bdf2, not crank-nicolson, which does not damp an impulsive start"
+    )]
+    Scheme,
+    /// A boundary of the mesh has no condition.
+    #[error(
+        "boundary `{boundary}` has no condition: say velocity, no-slip, slip, traction-free or periodic"
+    )]
+    NoCondition {
+        /// The boundary.
+        boundary: String,
+    },
+    /// A condition, or a motion, is for a boundary that the mesh does not have.
+    #[error("the mesh has no boundary `{boundary}`; it has {known}")]
+    UnknownBoundary {
+        /// The boundary asked for.
+        boundary: String,
+        /// Those that are there.
+        known: String,
+    },
+    /// A boundary has two conditions.
+    #[error("boundary `{boundary}` has two conditions: leave one")]
+    TwoConditions {
+        /// The boundary.
+        boundary: String,
+    },
+    /// Two boundaries do not make a periodic pair.
+    #[error("boundaries `{one}` and `{other}` are not periodic: {why}")]
+    NotPeriodic {
+        /// One.
+        one: String,
+        /// The other.
+        other: String,
+        /// What is wrong.
+        why: &'static str,
+    },
+    /// A boundary that moves has another condition than no slip.
+    #[error(
+        "boundary `{boundary}` moves, but its condition is {condition}: a moving boundary is no-slip"
+    )]
+    MovingBoundary {
+        /// The boundary.
+        boundary: String,
+        /// Its condition.
+        condition: &'static str,
+    },
+    /// More comes in than goes out, and there is no outlet.
+    #[error(
+        "at t = {time} s the given velocities let {flux:e} m2/s out of the domain ({share:.2} % of what crosses its \
+         boundaries) and no boundary is traction-free: make one the outlet, or give velocities whose flux is zero"
+    )]
+    Flux {
+        /// When, in s.
+        time: f64,
+        /// Net outflow, in m²/s.
+        flux: f64,
+        /// Its share of the flux in and out, in percent.
+        share: f64,
+    },
+    /// A given value is not a number.
+    #[error("{what} at ({}, {}) m and t = {time} s is ({}, {}): expected finite numbers", place[0], place[1], value[0], value[1])]
+    NotFinite {
+        /// What was given.
+        what: String,
+        /// Where, in m.
+        place: Point,
+        /// When, in s.
+        time: f64,
+        /// What came.
+        value: Point,
+    },
+    /// A step that is not a positive time.
+    #[error("a step of {dt:?} s: expected a positive, finite number")]
+    Step {
+        /// The step, in s.
+        dt: f64,
+    },
+    /// The mesh could not follow its boundaries.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// The linear system was not solved.
+    #[error(
+        "at t = {time} s: {source}; a smaller step makes the system easier, and so does a mesh of better quality"
+    )]
+    Linear {
+        /// When, in s.
+        time: f64,
+        /// Why.
+        source: LaggedError,
+    },
+    /// Newton's method did not converge.
+    #[error(
+        "at t = {time} s the velocity still changes by {change:.1e} of its largest value after {iterations} iterations, \
+         wanted {wanted:.1e}: {remedy}"
+    )]
+    NoConvergence {
+        /// When, in s.
+        time: f64,
+        /// Iterations made.
+        iterations: usize,
+        /// Largest change over the largest velocity.
+        change: f64,
+        /// What was wanted.
+        wanted: f64,
+        /// What to do.
+        remedy: &'static str,
+    },
+    /// The velocity is not a number any more.
+    #[error("at t = {time} s the velocity is not finite: take a smaller step or a finer mesh")]
+    Diverged {
+        /// When, in s.
+        time: f64,
+    },
+}

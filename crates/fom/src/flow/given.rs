@@ -1,0 +1,95 @@
+use super::places::DofPlaces;
+use super::unknowns::{NodeUnknowns, Unknowns};
+use super::{Condition, FlowError};
+use lumley_fem::element::{Cell, P2};
+use lumley_fem::geometry::{EdgePoint, Tabulated};
+use lumley_fem::quadrature::rule;
+use lumley_fem::space::NodalSpace;
+use lumley_fem::{PlanarMesh, Point};
+
+/// Share of the flux across all boundaries that may be left over where there is no outlet: what interpolation of
+/// sound data on a coarse mesh leaves.
+const LARGEST_SHARE: f64 = 0.02;
+
+/// The velocities that boundaries give.
+#[derive(Debug, Clone)]
+pub(super) struct Given {
+    /// Dofs and the boundaries that give their velocities.
+    held: Vec<(usize, usize)>,
+    /// Zero where nothing is given.
+    pub velocity: Vec<Point>,
+    /// Edges of the rim with their dofs, where the flux counts.
+    rim: Vec<(usize, [usize; 3])>,
+    rule: Vec<Tabulated<3>>,
+}
+
+impl Given {
+    pub fn new(mesh: &PlanarMesh, space: &NodalSpace, unknowns: &Unknowns) -> Self {
+        let held = unknowns.nodes.iter().enumerate().filter_map(|(dof, node)| match node {
+            NodeUnknowns::Held(boundary) => Some((dof, *boundary)),
+            _ => None,
+        });
+        let edges = mesh.topology().boundaries().iter().flat_map(|b| b.edges.iter().copied());
+        let dofs = |edge: usize| -> [usize; 3] {
+            let mut dofs = space.dofs().on_edge(mesh.topology().edges()[edge].left);
+            std::array::from_fn(|_| dofs.next().expect("an edge has three dofs"))
+        };
+        Self {
+            held: held.collect(),
+            velocity: vec![[0.0; 2]; space.dofs().len()],
+            rim: edges.map(|edge| (edge, dofs(edge))).collect(),
+            rule: Tabulated::on(&P2, &rule(Cell::Interval, 5)),
+        }
+    }
+
+    /// The velocities at `time`, in s; a boundary without slip has the velocity of the mesh.
+    pub fn update(
+        &mut self,
+        mesh: &PlanarMesh,
+        places: &DofPlaces,
+        conditions: &[Condition],
+        mesh_velocity: &[Point],
+        time: f64,
+    ) -> Result<(), FlowError> {
+        for &(dof, boundary) in &self.held {
+            self.velocity[dof] = match &conditions[boundary] {
+                Condition::Velocity(field) => {
+                    let place = mesh.nodes()[places.node(dof)];
+                    let value = field.value(place, time);
+                    if !value.iter().all(|v| v.is_finite()) {
+                        let name = &mesh.topology().boundaries()[boundary].name;
+                        let what = format!("the velocity given on boundary `{name}`");
+                        return Err(FlowError::NotFinite { what, place, time, value });
+                    }
+                    value
+                }
+                _ => mesh_velocity[dof],
+            };
+        }
+        Ok(())
+    }
+
+    /// The divergence that the given velocities enforce where all of the rim is held, per s: their flux out of the
+    /// domain over its area.
+    ///
+    /// # Errors
+    /// [`FlowError::Flux`] where it is more than interpolation makes.
+    pub fn divergence(&self, mesh: &PlanarMesh, time: f64) -> Result<f64, FlowError> {
+        let (mut flux, mut size, mut area) = (0.0, 0.0, 0.0);
+        for (edge, dofs) in &self.rim {
+            let nodes = mesh.edge(*edge);
+            let velocity = dofs.map(|dof| self.velocity[dof]);
+            for at in &self.rule {
+                let EdgePoint { point, normal, weight, .. } = EdgePoint::new(&nodes, at);
+                let out = at.value(&velocity.map(|u| u[0] * normal[0] + u[1] * normal[1]));
+                flux += weight * out;
+                size += weight * out.abs();
+                area += 0.5 * weight * (point[0] * normal[0] + point[1] * normal[1]);
+            }
+        }
+        if flux.abs() > LARGEST_SHARE * size {
+            return Err(FlowError::Flux { time, flux, share: 100.0 * flux.abs() / size });
+        }
+        Ok(flux / area)
+    }
+}

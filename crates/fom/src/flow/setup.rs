@@ -1,0 +1,220 @@
+use super::given::Given;
+use super::loads::{Load, LoadDofs};
+use super::output::area_rules;
+use super::places::DofPlaces;
+use super::slip::Slides;
+use super::system::System;
+use super::unknowns::Unknowns;
+use super::{Condition, Flow, FlowError, FlowParameters, VectorField, Work};
+use crate::linear::{Analysis, DelayedUnknowns, GmresLimits, LaggedSolver, RenewalPolicy};
+use crate::motion::Motion;
+use faer::Par;
+use lumley_fem::PlanarMesh;
+use lumley_fem::space::NodalSpace;
+use std::sync::Arc;
+
+/// Iterations that a factorisation costs.
+const FACTOR_PRICE: f64 = 8.0;
+/// Residual of the linear systems over their right-hand sides: 1e-8 would leave errors of 1e-6 in the velocity.
+const LINEAR_TOLERANCE: f64 = 1e-10;
+
+/// How the flow begins.
+///
+/// ```
+/// use lumley_fom::flow::FlowStart;
+/// let stream = FlowStart::Velocity(std::sync::Arc::new(|_: [f64; 2], _| [1.0, 0.0]));
+/// assert!(matches!(stream, FlowStart::Velocity(_)));
+/// ```
+#[derive(Clone)]
+pub enum FlowStart {
+    /// At rest.
+    Rest,
+    /// With this velocity, which need not fit the boundaries: the first step makes it so.
+    Velocity(Arc<dyn VectorField>),
+    /// With the creeping flow, without inertia, that the boundaries have at the start.
+    Stokes,
+}
+
+/// Everything a flow is made of.
+///
+/// See [`Flow`] for an example.
+pub struct FlowSetup {
+    /// The mesh.
+    pub mesh: PlanarMesh,
+    /// Fluid and scheme.
+    pub parameters: FlowParameters,
+    /// Conditions by name of the boundary, each boundary once.
+    pub conditions: Vec<(String, Condition)>,
+    /// How it begins.
+    pub start: FlowStart,
+    /// How the mesh moves, if it does.
+    pub motion: Option<Box<dyn Motion>>,
+    /// Whether both cores assemble and factorise; the bits are the same.
+    pub parallel: bool,
+}
+
+impl Flow {
+    /// The flow at its start.
+    ///
+    /// # Errors
+    /// Every variant of [`FlowError`] but those of a step.
+    pub fn new(setup: FlowSetup) -> Result<Self, FlowError> {
+        let FlowSetup { mut mesh, parameters, conditions, start, mut motion, parallel } = setup;
+        parameters.check()?;
+        let conditions = by_boundary(&mesh, conditions)?;
+        let moving = moving(&mesh, &conditions, motion.as_deref())?;
+        let mut nodes = [Vec::new(), Vec::new()];
+        if let Some(motion) = &mut motion {
+            motion.carry(0.0, &mut mesh)?;
+            nodes = [mesh.nodes().to_vec(), mesh.nodes().to_vec()];
+        }
+        let space = NodalSpace::velocity(mesh.topology());
+        let slides = Slides::new(&mesh, &space, &conditions);
+        let unknowns = Unknowns::new(&mesh, &space, &conditions, &slides)?;
+        let (system, pattern) = System::new(&mesh, &space, &conditions, &unknowns);
+        let solver = solver(&mesh, &unknowns, &system, &pattern, parallel);
+        let (dofs, cells) = (space.dofs().len(), mesh.topology().cells());
+        let boundaries = mesh.topology().boundaries().len();
+        let mut flow = Self {
+            places: DofPlaces::new(mesh.topology(), &space),
+            given: Given::new(&mesh, &space, &unknowns),
+            load_dofs: LoadDofs::new(&mesh, &space, &conditions),
+            time: 0.0,
+            previous: None,
+            velocity: [vec![[0.0; 2]; dofs], vec![[0.0; 2]; dofs]],
+            pressure: [vec![[0.0; 3]; cells], vec![[0.0; 3]; cells]],
+            nodes,
+            mesh_velocity: vec![[0.0; 2]; dofs],
+            loads: vec![Load::default(); boundaries],
+            pivots: vec![[0.0; 2]; boundaries],
+            work: Work::new(dofs, cells, mesh.nodes().len(), unknowns.count),
+            area_rules: area_rules(),
+            moving,
+            parameters,
+            conditions,
+            mesh,
+            space,
+            motion,
+            parallel,
+            unknowns,
+            pattern,
+            system,
+            solver,
+            slides,
+        };
+        flow.places.spread(flow.mesh.nodes(), &mut flow.work.dof_points);
+        flow.show_pivots();
+        flow.begin(start)?;
+        Ok(flow)
+    }
+
+    fn begin(&mut self, start: FlowStart) -> Result<(), FlowError> {
+        match start {
+            FlowStart::Rest => {}
+            FlowStart::Velocity(field) => {
+                for (velocity, &place) in self.velocity[0].iter_mut().zip(&self.work.dof_points) {
+                    let value = field.value(place, 0.0);
+                    if !value.iter().all(|v| v.is_finite()) {
+                        let what = "the initial velocity".into();
+                        return Err(FlowError::NotFinite { what, place, time: 0.0, value });
+                    }
+                    *velocity = value;
+                }
+            }
+            FlowStart::Stokes => self.creep()?,
+        }
+        let [now, before] = &mut self.velocity;
+        before.copy_from_slice(now);
+        Ok(())
+    }
+}
+
+/// The conditions in the order of the mesh's boundaries.
+fn by_boundary(
+    mesh: &PlanarMesh,
+    conditions: Vec<(String, Condition)>,
+) -> Result<Vec<Condition>, FlowError> {
+    let boundaries = mesh.topology().boundaries();
+    let mut found: Vec<Option<Condition>> = vec![None; boundaries.len()];
+    for (name, condition) in conditions {
+        let place = boundaries.iter().position(|boundary| boundary.name == name);
+        let place = place.ok_or_else(|| unknown(mesh, &name))?;
+        if found[place].replace(condition).is_some() {
+            return Err(FlowError::TwoConditions { boundary: name });
+        }
+    }
+    let pairs = boundaries.iter().zip(found);
+    let missing = |name: &str| FlowError::NoCondition { boundary: name.into() };
+    pairs.map(|(boundary, found)| found.ok_or_else(|| missing(&boundary.name))).collect()
+}
+
+fn unknown(mesh: &PlanarMesh, name: &str) -> FlowError {
+    let known: Vec<&str> = mesh.topology().boundaries().iter().map(|b| b.name.as_str()).collect();
+    FlowError::UnknownBoundary { boundary: name.into(), known: known.join(", ") }
+}
+
+/// Numbers of the boundaries that move, which do not slip.
+fn moving(
+    mesh: &PlanarMesh,
+    conditions: &[Condition],
+    motion: Option<&dyn Motion>,
+) -> Result<Vec<usize>, FlowError> {
+    let number = |name: &str| {
+        let place = mesh.topology().boundaries().iter().position(|boundary| boundary.name == name);
+        let place = place.ok_or_else(|| unknown(mesh, name))?;
+        match &conditions[place] {
+            Condition::NoSlip => Ok(place),
+            other => {
+                let condition = other.name();
+                Err(FlowError::MovingBoundary { boundary: name.into(), condition })
+            }
+        }
+    };
+    motion.map_or(Vec::new(), |motion| motion.boundaries()).into_iter().map(number).collect()
+}
+
+fn solver(
+    mesh: &PlanarMesh,
+    unknowns: &Unknowns,
+    system: &System,
+    pattern: &crate::linear::CellUnknowns,
+    parallel: bool,
+) -> LaggedSolver {
+    let order = system.order();
+    let mut rank = vec![0; order.len()];
+    order.iter().enumerate().for_each(|(k, &cell)| rank[cell] = k);
+    let centroids: Vec<_> = order.iter().map(|&cell| mesh.centre(cell)).collect();
+    let pressures: Vec<[usize; 2]> = order
+        .iter()
+        .enumerate()
+        .filter_map(|(k, &cell)| Some([unknowns.pressures[cell]?, k]))
+        .collect();
+    let inner = mesh.topology().edges().iter();
+    let inner = inner.filter_map(|edge| Some([edge.left.cell, edge.right?.cell]));
+    let neighbours: Vec<[usize; 2]> = inner
+        .chain(unknowns.periodic.iter().copied())
+        .map(|cells| cells.map(|cell| rank[cell]))
+        .collect();
+    let delayed = DelayedUnknowns { unknowns: &pressures, neighbours: &neighbours };
+    let analysis = Analysis::new(pattern.clone(), &centroids, &delayed);
+    let limits = GmresLimits { tolerance: LINEAR_TOLERANCE, ..GmresLimits::default() };
+    let par = if parallel { Par::rayon(0) } else { Par::Seq };
+    LaggedSolver::new(analysis, limits, RenewalPolicy::new(FACTOR_PRICE), par)
+}
+
+impl Work {
+    fn new(dofs: usize, cells: usize, nodes: usize, unknowns: usize) -> Self {
+        let vectors = |len| vec![[0.0; 2]; len];
+        Self {
+            wind: vectors(dofs),
+            source: vectors(dofs),
+            base: vectors(dofs),
+            dof_points: vectors(dofs),
+            node_velocity: vectors(nodes),
+            right: vec![0.0; unknowns],
+            solution: vec![0.0; unknowns],
+            new_velocity: vectors(dofs),
+            new_pressure: vec![[0.0; 3]; cells],
+        }
+    }
+}

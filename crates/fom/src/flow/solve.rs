@@ -1,0 +1,141 @@
+use super::cells::{NodalFields, Terms};
+use super::unknowns::NodeUnknowns;
+use super::{Flow, FlowError, ViscousForm};
+use crate::linear::LaggedStep;
+use lumley_fem::Point;
+
+impl Flow {
+    /// The terms of the equations with this weight of the new velocity in its rate, per s.
+    pub(super) fn terms(&self, rate: f64, newton: bool) -> Terms {
+        Terms {
+            density: self.parameters.density,
+            viscosity: self.parameters.viscosity,
+            rate,
+            stress: self.parameters.viscous_form == ViscousForm::Stress,
+            newton,
+            divergence: 0.0,
+        }
+    }
+
+    /// Sets what boundaries give at `time`.
+    pub(super) fn set_given(&mut self, time: f64) -> Result<(), FlowError> {
+        let Self { given, mesh, places, conditions, mesh_velocity, .. } = self;
+        given.update(mesh, places, conditions, mesh_velocity, time)
+    }
+
+    /// Sets the body force at `time` as the source.
+    pub(super) fn set_force(&mut self, time: f64) -> Result<(), FlowError> {
+        let Some(force) = &self.parameters.body_force else {
+            self.work.source.fill([0.0; 2]);
+            return Ok(());
+        };
+        for (source, &place) in self.work.source.iter_mut().zip(&self.work.dof_points) {
+            *source = force.value(place, time);
+            if !source.iter().all(|f| f.is_finite()) {
+                let what = "the body force".into();
+                return Err(FlowError::NotFinite { what, place, time, value: *source });
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts the given velocities into `work.base`, where they are known better than by extrapolation.
+    pub(super) fn hold_base(&mut self) {
+        for (dof, node) in self.unknowns.nodes.iter().enumerate() {
+            if matches!(node, NodeUnknowns::Held(_)) {
+                self.work.base[dof] = self.given.velocity[dof];
+            }
+        }
+    }
+
+    /// Starts the linear solver from `work.base` and `work.new_pressure`.
+    pub(super) fn guess(&mut self) {
+        let Self { unknowns, slides, work, .. } = self;
+        for (&node, velocity) in unknowns.nodes.iter().zip(&work.base) {
+            match node {
+                NodeUnknowns::Free(k) => work.solution[k..k + 2].copy_from_slice(velocity),
+                NodeUnknowns::Slides(slide, k) => {
+                    let tangent = slides.tangents[slide];
+                    work.solution[k] = tangent[0] * velocity[0] + tangent[1] * velocity[1];
+                }
+                NodeUnknowns::Held(_) => {}
+            }
+        }
+        // A pressure that is known up to a constant is zero in the last cell.
+        let level =
+            if unknowns.pinned() { work.new_pressure.last().map_or(0.0, |p| p[0]) } else { 0.0 };
+        for (&unknown, pressure) in unknowns.pressures.iter().zip(&work.new_pressure) {
+            if let Some(k) = unknown {
+                work.solution[k] = pressure[0] - level;
+            }
+        }
+    }
+
+    /// Solves the equations with `work.source`, linearised about `work.base`: the new velocity and pressure are
+    /// in `work`.
+    pub(super) fn solve(&mut self, terms: &Terms, time: f64) -> Result<LaggedStep, FlowError> {
+        let mut terms = *terms;
+        if self.unknowns.pinned() {
+            terms.divergence = self.given.divergence(&self.mesh, time)?;
+        }
+        let Self { system, space, pattern, slides, given, work, .. } = self;
+        let wind = work.wind.iter_mut().zip(&work.base).zip(&self.mesh_velocity);
+        wind.for_each(|((wind, u), w)| *wind = [0, 1].map(|d| u[d] - w[d]));
+        let fields = NodalFields {
+            nodes: self.mesh.nodes(),
+            wind: &work.wind,
+            source: &work.source,
+            base: &work.base,
+        };
+        system.assemble(&terms, &fields, &slides.tangents, self.parallel);
+        let tangents = &slides.tangents;
+        system.right_side(space, pattern, tangents, &given.velocity, &mut work.right);
+        let solved = self.solver.solve(&system.matrices, &work.right, &mut work.solution);
+        let solved = solved.map_err(|source| FlowError::Linear { time, source })?;
+        self.distribute(time)?;
+        Ok(solved)
+    }
+
+    /// Takes the solution of the linear system to the velocity and the pressure.
+    fn distribute(&mut self, time: f64) -> Result<(), FlowError> {
+        let Self { unknowns, slides, given, work, .. } = self;
+        let x = &work.solution;
+        if !x.iter().all(|x| x.is_finite()) {
+            return Err(FlowError::Diverged { time });
+        }
+        for (dof, &node) in unknowns.nodes.iter().enumerate() {
+            work.new_velocity[dof] = match node {
+                NodeUnknowns::Free(k) => [x[k], x[k + 1]],
+                NodeUnknowns::Slides(slide, k) => slides.tangents[slide].map(|t| t * x[k]),
+                NodeUnknowns::Held(_) => given.velocity[dof],
+            };
+        }
+        for (pressure, unknown) in work.new_pressure.iter_mut().zip(&unknowns.pressures) {
+            pressure[0] = unknown.map_or(0.0, |k| x[k]);
+        }
+        self.system.recover(&self.space, &mut work.new_velocity, &mut work.new_pressure);
+        if unknowns.pinned() {
+            self.level_pressure();
+        }
+        Ok(())
+    }
+
+    /// Makes the mean of a pressure zero that is known up to a constant.
+    fn level_pressure(&mut self) {
+        let areas = self.cell_areas();
+        let total: f64 = areas.iter().sum();
+        let pressures = &mut self.work.new_pressure;
+        let mean = pressures.iter().zip(&areas).map(|(p, a)| p[0] * a).sum::<f64>() / total;
+        pressures.iter_mut().for_each(|p| p[0] -= mean);
+    }
+
+    /// Largest change from `work.base` to the new velocity, over the largest velocity.
+    pub(super) fn change(&self) -> f64 {
+        let size = |u: &Point| u[0].hypot(u[1]);
+        let work = &self.work;
+        let pairs = work.new_velocity.iter().zip(&work.base);
+        let change = pairs.map(|(u, v)| size(&[u[0] - v[0], u[1] - v[1]])).fold(0.0, f64::max);
+        let largest = work.new_velocity.iter().map(size).fold(0.0, f64::max);
+        if change > 0.0 { change / largest.max(f64::MIN_POSITIVE) } else { 0.0 }
+    }
+}

@@ -1,0 +1,53 @@
+use super::{MotionError, PrescribedMotion};
+use lumley_fem::{PlanarMesh, Point};
+
+/// How the nodes of a flow's mesh move in time.
+///
+/// ```
+/// use lumley_fem::{PlanarMesh, Point};
+/// use lumley_fom::motion::{Motion, MotionError};
+/// /// A mesh that breathes, for a test.
+/// struct Breathing(Vec<Point>);
+/// impl Motion for Breathing {
+///     fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), MotionError> {
+///         for (node, reference) in mesh.nodes_mut().iter_mut().zip(&self.0) {
+///             *node = reference.map(|x| x * (1.0 + 0.1 * time.sin()));
+///         }
+///         Ok(())
+///     }
+///     fn boundaries(&self) -> Vec<&str> {
+///         Vec::new()
+///     }
+///     fn pivot(&self, _: usize) -> Point {
+///         unreachable!("there are no boundaries that move")
+///     }
+/// }
+/// ```
+pub trait Motion: Send + Sync {
+    /// Moves the nodes to where they are at `time`, in s, and makes sure that the cells survive it.
+    ///
+    /// # Errors
+    /// [`MotionError`]; the mesh is then of no use.
+    fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), MotionError>;
+
+    /// The boundaries that move.
+    fn boundaries(&self) -> Vec<&str>;
+
+    /// Where the pivot of the k-th of them is, in m.
+    fn pivot(&self, k: usize) -> Point;
+}
+
+impl Motion for PrescribedMotion {
+    fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), MotionError> {
+        PrescribedMotion::carry(self, time, mesh)
+    }
+
+    fn boundaries(&self) -> Vec<&str> {
+        self.motion().boundaries().map(|boundary| boundary.name.as_str()).collect()
+    }
+
+    fn pivot(&self, k: usize) -> Point {
+        let boundary = self.motion().boundaries().nth(k).expect("a boundary that moves");
+        [0, 1].map(|d| boundary.pivot[d] + self.positions()[k].translation[d])
+    }
+}

@@ -1,0 +1,5 @@
+//! The flow solver.
+
+mod exact;
+mod manufactured;
+mod setups;
