@@ -1,4 +1,4 @@
-use super::{Flow, Linearisation, ViscousForm};
+use super::{Flow, ViscousForm};
 use crate::TimeScheme;
 use crate::checkpoint::{self, CheckpointError};
 use lumley_fem::Point;
@@ -28,7 +28,7 @@ impl Flow {
     }
 
     /// What a checkpoint must agree with.
-    fn identity(&self) -> [(&'static str, u64); 9] {
+    fn identity(&self) -> [(&'static str, u64); 10] {
         let p = &self.parameters;
         let topology = self.mesh.topology();
         [
@@ -40,11 +40,8 @@ impl Flow {
             ("density", p.density.to_bits()),
             ("viscosity", p.viscosity.to_bits()),
             ("time scheme", u64::from(p.scheme == TimeScheme::Bdf2)),
-            (
-                "viscous form or linearisation",
-                u64::from(p.viscous_form == ViscousForm::Laplacian)
-                    + 2 * u64::from(p.linearisation == Linearisation::Newton),
-            ),
+            ("viscous form", u64::from(p.viscous_form == ViscousForm::Laplacian)),
+            ("linearisation", p.linearisation as u64),
         ]
     }
 

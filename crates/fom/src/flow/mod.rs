@@ -68,7 +68,7 @@ use unknowns::Unknowns;
 ///         density: 1.0,
 ///         viscosity: 0.01,
 ///         viscous_form: ViscousForm::Laplacian,
-///         linearisation: Linearisation::Extrapolation,
+///         linearisation: Linearisation::Tangent,
 ///         scheme: TimeScheme::Bdf2,
 ///         body_force: None,
 ///     },

@@ -25,15 +25,18 @@ pub enum ViscousForm {
 ///
 /// ```
 /// use lumley_fom::flow::Linearisation;
-/// assert_eq!(Linearisation::default(), Linearisation::Extrapolation);
+/// assert_eq!(Linearisation::default(), Linearisation::Tangent);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Linearisation {
-    /// The wind is extrapolated from the steps before, to the order of the time scheme: one linear system a
-    /// step.
-    #[default]
+    /// `(u*·∇) u` with the velocity u* that is extrapolated from the steps before, to the order of the time
+    /// scheme: one linear system a step, the paper's.
     Extrapolation,
+    /// `(u*·∇) u + (u·∇) u* − (u*·∇) u*`, one iteration of Newton's method from the extrapolated velocity: one linear
+    /// system a step, and what it neglects is the square of what was extrapolated wrongly.
+    #[default]
+    Tangent,
     /// Newton's method: the equations hold at the new instant, whatever the step.
     Newton,
 }
@@ -47,7 +50,7 @@ pub enum Linearisation {
 ///     density: 1.2,
 ///     viscosity: 1.8e-5,
 ///     viscous_form: ViscousForm::Stress,
-///     linearisation: Linearisation::Extrapolation,
+///     linearisation: Linearisation::Tangent,
 ///     scheme: TimeScheme::Bdf2,
 ///     body_force: None,
 /// };

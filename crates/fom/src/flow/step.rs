@@ -104,12 +104,12 @@ impl Flow {
 
     fn solve_step(&mut self, time: f64, formula: RateFormula) -> Result<FlowStep, FlowError> {
         let mut step = FlowStep::default();
-        let newton = self.parameters.linearisation == Linearisation::Newton;
-        let terms = self.terms(formula.new, newton);
+        let linearisation = self.parameters.linearisation;
+        let terms = self.terms(formula.new, linearisation != Linearisation::Extrapolation);
         step.count(self.solve(&terms, time)?);
         let mut change = self.change();
         step.extrapolation_error = change;
-        while newton && change > NEWTON_TOLERANCE {
+        while linearisation == Linearisation::Newton && change > NEWTON_TOLERANCE {
             if step.systems == NEWTON_ITERATIONS {
                 return Err(FlowError::NoConvergence {
                     time,

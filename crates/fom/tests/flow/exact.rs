@@ -57,13 +57,3 @@ pub fn steady_force(at: Point, time: f64) -> Point {
     let [x, y] = force(at, time);
     [x + slope * cx * sy, y - slope * sx * cy]
 }
-
-/// `σ n` in the form of the stress, or `μ ∂u/∂n − p n`.
-pub fn traction(at: Point, t: f64, n: Point, stress: bool) -> Point {
-    let (grad, p) = (gradient(at, t), pressure(at, t));
-    [0, 1].map(|c| {
-        let own: f64 = (0..2).map(|d| grad[c][d] * n[d]).sum();
-        let other: f64 = (0..2).map(|d| grad[d][c] * n[d]).sum();
-        VISCOSITY * (own + if stress { other } else { 0.0 }) - p * n[c]
-    })
-}

@@ -68,12 +68,16 @@ impl Motion for Wobble {
     }
 }
 
-pub fn parameters(scheme: TimeScheme, form: ViscousForm, newton: bool) -> FlowParameters {
+pub fn parameters(
+    scheme: TimeScheme,
+    form: ViscousForm,
+    linearisation: Linearisation,
+) -> FlowParameters {
     FlowParameters {
         density: exact::DENSITY,
         viscosity: exact::VISCOSITY,
         viscous_form: form,
-        linearisation: if newton { Linearisation::Newton } else { Linearisation::Extrapolation },
+        linearisation,
         scheme,
         body_force: Some(Arc::new(exact::force)),
     }
@@ -84,12 +88,13 @@ pub fn enclosed(
     mesh: PlanarMesh,
     parameters: FlowParameters,
     motion: Option<Box<dyn Motion>>,
+    parallel: bool,
 ) -> Flow {
     let given = || Condition::Velocity(Arc::new(exact::velocity));
     let sides = ["bottom", "right", "top", "left"].map(|name| (name.to_owned(), given()));
     let start = FlowStart::Velocity(Arc::new(exact::velocity));
     let conditions = sides.into();
-    Flow::new(FlowSetup { mesh, parameters, conditions, start, motion, parallel: false })
+    Flow::new(FlowSetup { mesh, parameters, conditions, start, motion, parallel })
         .expect("a sound setup")
 }
 

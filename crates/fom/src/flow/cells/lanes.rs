@@ -16,12 +16,6 @@ impl Lanes {
         Self([value; WIDTH])
     }
 
-    /// The numbers of the cells.
-    #[inline(always)]
-    pub fn gather(of: impl FnMut(usize) -> f64) -> Self {
-        Self(array::from_fn(of))
-    }
-
     #[inline(always)]
     pub fn recip(self) -> Self {
         Self(self.0.map(f64::recip))
