@@ -1,4 +1,5 @@
-//! Looking for tangled cells and mapping points allocate nothing: both happen in every step.
+//! Looking for tangled cells, mapping points and recovering fields allocate nothing: they happen in every step
+//! or in many.
 
 mod counting;
 
@@ -6,7 +7,7 @@ use counting::allocations;
 use lumley_fem::element::{Cell, Q2};
 use lumley_fem::geometry::{Mapped, Tabulated};
 use lumley_fem::quadrature::rule;
-use lumley_fem::space::LinearPressure;
+use lumley_fem::space::{LinearPressure, NodalSpace, Recovery};
 use lumley_fem::{MeshDescription, PlanarMesh};
 
 /// An edge is so bent that its cell has to be quartered before it is proven.
@@ -33,4 +34,19 @@ fn checks_and_maps_allocate_nothing() {
     let count = allocations() - before;
     assert!(sum.is_finite());
     assert_eq!(count, 0);
+}
+
+/// Pressure and vorticity for a file or a picture.
+#[test]
+fn recovery_allocates_nothing() {
+    let description = MeshDescription::structured([3, 2], |[i, j]| i + j == 2, |p| p);
+    let mesh = PlanarMesh::new(description).expect("valid");
+    let space = NodalSpace::velocity(mesh.topology());
+    let mut recovery = Recovery::new(&space);
+    let (velocity, pressure) = (space.points(&mesh), vec![[1.0; 3]; mesh.topology().cells()]);
+    let mut nodal = vec![0.0; space.dofs().len()];
+    let before = allocations();
+    recovery.pressure(&mesh, &space, &pressure, &mut nodal);
+    recovery.vorticity(&mesh, &space, &velocity, &mut nodal);
+    assert_eq!(allocations() - before, 0);
 }

@@ -8,6 +8,7 @@ pub mod flow;
 pub mod linear;
 pub mod motion;
 mod piston;
+pub mod signal;
 mod time_scheme;
 
 pub use checkpoint::CheckpointError;

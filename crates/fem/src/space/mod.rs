@@ -3,7 +3,9 @@
 mod dofs;
 mod linear_pressure;
 mod nodal;
+mod recovery;
 
 pub use dofs::DofMap;
 pub use linear_pressure::LinearPressure;
 pub use nodal::NodalSpace;
+pub use recovery::Recovery;

@@ -5,6 +5,7 @@ mod disc;
 mod divergence;
 mod interpolation;
 mod motion;
+mod recovery;
 mod topology;
 
 use lumley_fem::element::{Cell, Element, Q2, TriangleP2};

@@ -147,6 +147,18 @@ pub enum FormatError {
         /// Bytes that there must be.
         expected: u64,
     },
+    /// A value that would make the file useless.
+    #[error("{} is not written: value {place} of {field} is {value}, expected finite numbers\n  help: the computation has diverged; take shorter time steps or a finer mesh", path.display())]
+    NotFinite {
+        /// The file.
+        path: PathBuf,
+        /// The field.
+        field: String,
+        /// The number of the value, counted from 0.
+        place: usize,
+        /// The value.
+        value: f64,
+    },
     /// A line of a table is wrong.
     #[error("{}: line {line}: expected {expected}, found {text:?}", path.display())]
     Line {

@@ -1,5 +1,5 @@
 //! Files of other programs: NumPy arrays ([`npy`], [`npz`]), tables ([`csv`]) and meshes of gmsh ([`gmsh`]),
-//! read strictly; files of lumley are written whole or not at all ([`atomic`]).
+//! read strictly; fields for ParaView ([`vtu`]). Files of lumley are written whole or not at all ([`atomic`]).
 //!
 //! A size that a file claims is checked against the file before anything is allocated for it.
 
@@ -11,5 +11,6 @@ pub mod npy;
 pub mod npz;
 pub(crate) mod positioned;
 mod region;
+pub mod vtu;
 
 pub use error::FormatError;

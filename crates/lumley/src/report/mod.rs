@@ -15,7 +15,7 @@ mod piston;
 mod pod;
 mod provenance;
 #[cfg(test)]
-mod wellformed;
+pub(crate) mod wellformed;
 
 pub use html::Report;
 pub use markup::{escape, literal};

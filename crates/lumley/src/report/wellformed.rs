@@ -6,13 +6,13 @@ const RAW: [&str; 2] = ["script", "style"];
 
 /// What was found of an element's start.
 #[derive(Debug)]
-pub(super) struct Element {
+pub(crate) struct Element {
     pub tag: String,
     pub attributes: Vec<(String, String)>,
 }
 
 /// All elements of a text whose tags are balanced and whose attributes and entities are right.
-pub(super) fn elements(mut text: &str) -> Result<Vec<Element>, String> {
+pub(crate) fn elements(mut text: &str) -> Result<Vec<Element>, String> {
     let (mut open, mut found) = (Vec::new(), Vec::new());
     while let Some(start) = text.find('<') {
         entities(&text[..start])?;
@@ -59,8 +59,7 @@ fn element(tag: &str) -> Result<Element, String> {
         attributes.push((key.trim().to_string(), value.to_string()));
         rest = after;
     }
-    let plain =
-        |text: &str| text.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == ':');
+    let plain = |text: &str| text.chars().all(|c| c.is_ascii_alphanumeric() || "-_:".contains(c));
     if !plain(name) || !attributes.iter().all(|(key, _)| plain(key)) {
         return Err(format!("name in <{tag}>"));
     }
