@@ -104,16 +104,11 @@ impl Flow {
         largest * dt
     }
 
-    /// Areas of the cells, in m².
-    pub(super) fn cell_areas(&self) -> Vec<f64> {
+    /// Area of a cell, in m².
+    pub(super) fn cell_area(&self, cell: usize) -> f64 {
         let mut points = [([0.0; 2], 0.0); 9];
-        let cells = 0..self.mesh.topology().cells();
-        cells
-            .map(|cell| {
-                let count = self.quadrature_points(cell, &mut points);
-                points[..count].iter().map(|(_, weight)| weight).sum()
-            })
-            .collect()
+        let count = self.quadrature_points(cell, &mut points);
+        points[..count].iter().map(|(_, weight)| weight).sum()
     }
 
     /// Points and weights of the quadrature on a cell, in m and m²; returns how many.

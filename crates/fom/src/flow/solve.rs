@@ -122,11 +122,13 @@ impl Flow {
 
     /// Makes the mean of a pressure zero that is known up to a constant.
     fn level_pressure(&mut self) {
-        let areas = self.cell_areas();
-        let total: f64 = areas.iter().sum();
-        let pressures = &mut self.work.new_pressure;
-        let mean = pressures.iter().zip(&areas).map(|(p, a)| p[0] * a).sum::<f64>() / total;
-        pressures.iter_mut().for_each(|p| p[0] -= mean);
+        let (mut total, mut level) = (0.0, 0.0);
+        for (cell, pressure) in self.work.new_pressure.iter().enumerate() {
+            let area = self.cell_area(cell);
+            total += area;
+            level += area * pressure[0];
+        }
+        self.work.new_pressure.iter_mut().for_each(|p| p[0] -= level / total);
     }
 
     /// Largest change from `work.base` to the new velocity, over the largest velocity.
