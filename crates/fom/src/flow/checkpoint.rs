@@ -50,7 +50,10 @@ impl Flow {
         let vectors = self.velocity.iter().chain(&self.nodes).chain([&self.mesh_velocity]);
         let pressures = self.pressure.iter().flatten().flatten();
         let loads = self.loads.iter().flat_map(|l| [l.force[0], l.force[1], l.moment]);
-        [self.time, self.previous.unwrap_or(0.0)]
+        let optional = |dt: Option<f64>| dt.unwrap_or(0.0);
+        let scalars =
+            [self.time, optional(self.previous), self.steps as f64, optional(self.wanted_step)];
+        scalars
             .into_iter()
             .chain(vectors.flatten().flatten().copied())
             .chain(pressures.copied())
@@ -64,6 +67,11 @@ impl Flow {
         let mut next = || numbers.next().expect("as many as were written");
         self.time = next();
         self.previous = Some(next()).filter(|&dt| dt > 0.0);
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        {
+            self.steps = next() as u64;
+        }
+        self.wanted_step = Some(next()).filter(|&dt| dt > 0.0);
         let vectors =
             self.velocity.iter_mut().chain(&mut self.nodes).chain([&mut self.mesh_velocity]);
         for vector in vectors.flatten() {

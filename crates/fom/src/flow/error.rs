@@ -100,6 +100,21 @@ pub enum FlowError {
         /// The step, in s.
         dt: f64,
     },
+    /// An adaptive step is too long and may not be shorter.
+    #[error(
+        "at t = {time} s the velocity is {error:.1e} of its largest value from the extrapolated one, wanted {tolerance:.1e}, and \
+         the step is the shortest, {shortest:e} s: allow shorter steps or a larger tolerance"
+    )]
+    ShortestStep {
+        /// When, in s.
+        time: f64,
+        /// The shortest step, in s.
+        shortest: f64,
+        /// The error found.
+        error: f64,
+        /// The error wanted.
+        tolerance: f64,
+    },
     /// The mesh could not follow its boundaries.
     #[error(transparent)]
     Motion(#[from] MotionError),

@@ -8,6 +8,7 @@
 //! whatever the mesh does (the geometric conservation law). Velocities are quadratic with a bubble on triangles and
 //! biquadratic on quadrilaterals, pressures linear and discontinuous: the paper's Crouzeix-Raviart and Q2/P1 pairs.
 
+mod adaptive;
 mod cells;
 mod checkpoint;
 mod condition;
@@ -29,6 +30,7 @@ mod step;
 mod system;
 mod unknowns;
 
+pub use adaptive::StepControl;
 pub use condition::Condition;
 pub use error::FlowError;
 pub use field::VectorField;
@@ -110,6 +112,10 @@ pub struct Flow {
     time: f64,
     /// The step before, in s.
     previous: Option<f64>,
+    /// Steps made.
+    steps: u64,
+    /// What an adaptive step would be, in s.
+    wanted_step: Option<f64>,
     /// At the velocity dofs, now and a step before.
     velocity: [Vec<Point>; 2],
     /// By cell, now and a step before.

@@ -81,6 +81,8 @@ impl Flow {
             load_dofs: LoadDofs::new(&mesh, &space, &conditions),
             time: 0.0,
             previous: None,
+            steps: 0,
+            wanted_step: None,
             velocity: [vec![[0.0; 2]; dofs], vec![[0.0; 2]; dofs]],
             pressure: [vec![[0.0; 3]; cells], vec![[0.0; 3]; cells]],
             nodes,

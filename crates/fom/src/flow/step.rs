@@ -40,6 +40,13 @@ impl Flow {
     /// # Errors
     /// [`FlowError`]: the flow is then half-moved and must be discarded.
     pub fn step(&mut self, dt: f64) -> Result<FlowStep, FlowError> {
+        let step = self.compute(dt)?;
+        self.accept(self.time + dt, dt);
+        Ok(step)
+    }
+
+    /// Computes the flow after a step of `dt`, in s, into `work`.
+    pub(super) fn compute(&mut self, dt: f64) -> Result<FlowStep, FlowError> {
         if !(dt.is_finite() && dt > 0.0) {
             return Err(FlowError::Step { dt });
         }
@@ -51,9 +58,7 @@ impl Flow {
         self.subtract_history(formula);
         self.extrapolate(dt);
         self.guess();
-        let step = self.solve_step(time, formula)?;
-        self.accept(time, dt);
-        Ok(step)
+        self.solve_step(time, formula)
     }
 
     /// Moves the mesh to `time`; its velocity is the difference formula of its places, so that the scheme keeps a
@@ -138,6 +143,7 @@ impl Flow {
         }
         self.show_pivots();
         (self.time, self.previous) = (time, Some(dt));
+        self.steps += 1;
         self.update_loads();
     }
 

@@ -4,7 +4,7 @@ use super::exact;
 use super::setups::{KINDS, Kind, Wobble, enclosed, errors, mesh, order, parameters};
 use lumley_fem::Point;
 use lumley_fom::TimeScheme;
-use lumley_fom::flow::{Linearisation, SteadyLimits, ViscousForm};
+use lumley_fom::flow::{Linearisation, SteadyLimits, StepControl, ViscousForm};
 use std::sync::Arc;
 
 const LINEARISATIONS: [Linearisation; 3] =
@@ -57,4 +57,35 @@ fn orders_in_time() {
             assert!((order - expected).abs() < 0.2, "{case}, expected {expected}");
         }
     }
+}
+
+/// An adaptive run meets the times it is asked for, with the error that it is asked for.
+#[test]
+fn adaptive_steps_keep_the_error() {
+    let errors = [2e-2, 4e-3].map(|tolerance| {
+        let grid = mesh(Kind::Quadrilaterals, 16);
+        let motion = Wobble::of(&grid, 4.0);
+        let parameters =
+            parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::default());
+        let mut flow = enclosed(grid, parameters, Some(motion), false);
+        let control = StepControl { tolerance, shortest: 1e-4, longest: 0.2 };
+        let (mut lengths, mut worst) = (Vec::new(), 0.0_f64);
+        for end in [0.4, 1.0] {
+            while flow.time() < end {
+                let before = flow.time();
+                let step = flow.step_towards(end, &control).expect("a step");
+                lengths.push(flow.time() - before);
+                if lengths.len() > 2 {
+                    worst = worst.max(step.extrapolation_error);
+                }
+            }
+            assert!((flow.time() - end).abs() < 1e-12);
+        }
+        assert!(worst < 2.0 * tolerance, "{worst:e}");
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        assert!(longest > 20.0 * lengths[0], "the steps grow: {lengths:?}");
+        (errors(&flow)[0], lengths.len())
+    });
+    let [(coarse, few), (fine, many)] = errors;
+    assert!(fine < 0.5 * coarse && many > few, "{errors:?}");
 }

@@ -1,0 +1,73 @@
+use super::{Flow, FlowError, FlowStep};
+use crate::TimeScheme;
+use serde::{Deserialize, Serialize};
+
+/// Share of the step that would just do.
+const SAFETY: f64 = 0.9;
+/// How much longer or shorter a step may be than the one before; BDF2 stays within its limit.
+const LARGEST_GROWTH: f64 = 1.5;
+const LARGEST_CUT: f64 = 0.3;
+/// A step is made again if its error is this many times too large.
+const REFUSED: f64 = 2.0;
+
+/// How long the steps are: so that the new velocity is near the extrapolated one.
+///
+/// The error that is kept at `tolerance` is [`FlowStep::extrapolation_error`]: it goes with dt² for BDF2, with dt for
+/// implicit Euler, and bounds that of the linearisation.
+///
+/// ```
+/// use lumley_fom::{TimeScheme, flow::StepControl};
+/// let control = StepControl { tolerance: 1e-3, shortest: 1e-4, longest: 0.1 };
+/// assert_eq!(control.next(0.01, 4e-3, TimeScheme::Bdf2), 0.0045);
+/// assert_eq!(control.next(0.09, 0.0, TimeScheme::Bdf2), 0.1);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StepControl {
+    /// Largest distance from the extrapolated velocity, over the largest velocity.
+    pub tolerance: f64,
+    /// Shortest step, in s.
+    pub shortest: f64,
+    /// Longest step, in s.
+    pub longest: f64,
+}
+
+impl StepControl {
+    /// The step, in s, after one of `dt` with this error.
+    pub fn next(&self, dt: f64, error: f64, scheme: TimeScheme) -> f64 {
+        let order = if scheme == TimeScheme::Bdf2 { 0.5 } else { 1.0 };
+        let factor = SAFETY * (self.tolerance / error.max(f64::MIN_POSITIVE)).powf(order);
+        (dt * factor.clamp(LARGEST_CUT, LARGEST_GROWTH)).clamp(self.shortest, self.longest)
+    }
+}
+
+impl Flow {
+    /// One step towards `end`, in s, no longer than `control` likes, such that the rest is whole steps of its length.
+    /// A step with too large an error is made again, shorter.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step), and [`FlowError::ShortestStep`] where the shortest step is too long.
+    pub fn step_towards(&mut self, end: f64, control: &StepControl) -> Result<FlowStep, FlowError> {
+        let mut wanted = self.wanted_step.unwrap_or(control.shortest);
+        loop {
+            let rest = end - self.time;
+            let dt = rest / (rest / wanted * (1.0 - 1e-9)).ceil().max(1.0);
+            let time = self.time + dt;
+            let step = self.compute(dt)?;
+            let error = step.extrapolation_error;
+            wanted = control.next(dt, error, self.parameters.scheme);
+            // The first steps follow an impulsive start, which no extrapolation foresees.
+            let foreseen = self.steps >= 2;
+            if !foreseen || error <= REFUSED * control.tolerance {
+                self.accept(time, dt);
+                self.wanted_step = Some(if foreseen { wanted } else { dt });
+                return Ok(step);
+            }
+            if dt <= control.shortest * (1.0 + 1e-9) {
+                let FlowStep { extrapolation_error: error, .. } = step;
+                let (shortest, tolerance) = (control.shortest, control.tolerance);
+                return Err(FlowError::ShortestStep { time, shortest, error, tolerance });
+            }
+        }
+    }
+}
