@@ -1,3 +1,4 @@
+use super::loads::edge_dofs;
 use super::places::DofPlaces;
 use super::unknowns::{NodeUnknowns, Unknowns};
 use super::{Condition, FlowError};
@@ -30,14 +31,10 @@ impl Given {
             _ => None,
         });
         let edges = mesh.topology().boundaries().iter().flat_map(|b| b.edges.iter().copied());
-        let dofs = |edge: usize| -> [usize; 3] {
-            let mut dofs = space.dofs().on_edge(mesh.topology().edges()[edge].left);
-            std::array::from_fn(|_| dofs.next().expect("an edge has three dofs"))
-        };
         Self {
             held: held.collect(),
             velocity: vec![[0.0; 2]; space.dofs().len()],
-            rim: edges.map(|edge| (edge, dofs(edge))).collect(),
+            rim: edges.map(|edge| (edge, edge_dofs(mesh, space, edge))).collect(),
             rule: Tabulated::on(&P2, &rule(Cell::Interval, 5)),
         }
     }

@@ -1,4 +1,4 @@
-use super::{Condition, Flow};
+use super::{Condition, Flow, ViscousForm};
 use lumley_fem::element::{Cell, P2, P2Bubble, Q2, TriangleP2};
 use lumley_fem::geometry::{EdgePoint, Mapped, Tabulated};
 use lumley_fem::quadrature::rule;
@@ -7,6 +7,17 @@ use lumley_fem::{Boundary, PlanarMesh, Point, Side};
 
 /// Exact for the quadratic stress on a curved edge.
 const DEGREE: usize = 7;
+
+/// The quadrature of loads on edges.
+pub(super) fn edge_rule() -> Vec<Tabulated<3>> {
+    Tabulated::on(&P2, &rule(Cell::Interval, DEGREE))
+}
+
+/// Dofs of an edge of the rim: start, end, middle.
+pub(super) fn edge_dofs(mesh: &PlanarMesh, space: &NodalSpace, edge: usize) -> [usize; 3] {
+    let mut dofs = space.dofs().on_edge(mesh.topology().edges()[edge].left);
+    std::array::from_fn(|_| dofs.next().expect("an edge has three dofs"))
+}
 
 /// What the fluid does to a boundary, for each metre of span.
 ///
@@ -79,6 +90,38 @@ impl Flow {
                 }
             },
         );
+        if self.parameters.viscous_form == ViscousForm::Laplacian {
+            self.add_transposed_gradient();
+        }
+    }
+
+    /// What the residual of the Laplacian form leaves out, `∫ μ ∇uᵀ n`. Along a boundary with tangent t that gives the
+    /// velocity, the slope `u_t` is known and `∇·u = 0` gives the rest: `∇uᵀ n = (u_t·n) t − (u_t·t) n`.
+    fn add_transposed_gradient(&mut self) {
+        for (number, boundary) in self.mesh.topology().boundaries().iter().enumerate() {
+            let gives = matches!(self.conditions[number], Condition::Velocity(_));
+            if !(gives || self.moving.contains(&number)) {
+                continue;
+            }
+            let pivot = self.pivots[number];
+            for &edge in &boundary.edges {
+                let nodes = self.mesh.edge(edge);
+                let velocity =
+                    edge_dofs(&self.mesh, &self.space, edge).map(|dof| self.velocity[0][dof]);
+                for at in &self.edge_rule {
+                    let EdgePoint { point, tangent, normal, .. } = EdgePoint::new(&nodes, at);
+                    // The slope times the length element, which the weight has not, then.
+                    let slope: Point = [0, 1].map(|d| {
+                        velocity.iter().zip(&at.dphi).map(|(u, dphi)| u[d] * dphi[0]).sum()
+                    });
+                    let [across, along] =
+                        [normal, tangent].map(|v| slope[0] * v[0] + slope[1] * v[1]);
+                    let factor = -self.parameters.viscosity * at.weight;
+                    let force = [0, 1].map(|d| factor * (across * tangent[d] - along * normal[d]));
+                    self.loads[number].add(force, [point[0] - pivot[0], point[1] - pivot[1]]);
+                }
+            }
+        }
     }
 
     /// The load on a boundary by the integral of the stress over it, paper eq. (17): a check of
@@ -91,14 +134,12 @@ impl Flow {
 
     fn integrate_stress(&self, boundary: &Boundary, pivot: Point) -> Load {
         let mut load = Load::default();
-        let rule = rule(Cell::Interval, DEGREE);
-        let on_edge = Tabulated::on(&P2, &rule);
         for &edge in &boundary.edges {
             let side = self.mesh.topology().edges()[edge].left;
             let nodes = self.mesh.edge(edge);
-            for (at, (reference, _)) in on_edge.iter().zip(&rule) {
+            for at in &self.edge_rule {
                 let EdgePoint { point, normal, weight, .. } = EdgePoint::new(&nodes, at);
-                let stress = self.stress(side, reference[0]);
+                let stress = self.stress(side, at.reference[0]);
                 // The normal points out of the fluid, into the body.
                 let traction =
                     stress.map(|row| -(row[0] * normal[0] + row[1] * normal[1]) * weight);

@@ -129,6 +129,7 @@ pub struct Flow {
     pivots: Vec<Point>,
     /// Numbers of the boundaries that move.
     moving: Vec<usize>,
+    edge_rule: Vec<Tabulated<3>>,
     area_rules: (Vec<Tabulated<6>>, Vec<Tabulated<9>>),
     work: Work,
 }

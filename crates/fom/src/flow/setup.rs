@@ -1,5 +1,5 @@
 use super::given::Given;
-use super::loads::{Load, LoadDofs};
+use super::loads::{Load, LoadDofs, edge_rule};
 use super::output::area_rules;
 use super::places::DofPlaces;
 use super::slip::Slides;
@@ -90,6 +90,7 @@ impl Flow {
             loads: vec![Load::default(); boundaries],
             pivots: vec![[0.0; 2]; boundaries],
             work: Work::new(dofs, cells, mesh.nodes().len(), unknowns.count),
+            edge_rule: edge_rule(),
             area_rules: area_rules(),
             moving,
             parameters,

@@ -1,4 +1,5 @@
 use super::Condition;
+use super::loads::edge_dofs;
 use lumley_fem::element::{Cell, P2};
 use lumley_fem::geometry::{EdgePoint, Tabulated};
 use lumley_fem::quadrature::rule;
@@ -35,10 +36,7 @@ impl Slides {
         let slip = topology.boundaries().iter().zip(conditions);
         let slip = slip.filter(|(_, condition)| matches!(condition, Condition::Slip));
         let edges: Vec<usize> = slip.flat_map(|(boundary, _)| boundary.edges.clone()).collect();
-        let dofs = |edge: usize| -> [usize; 3] {
-            let mut dofs = space.dofs().on_edge(topology.edges()[edge].left);
-            std::array::from_fn(|_| dofs.next().expect("an edge has three dofs"))
-        };
+        let dofs = |edge: usize| edge_dofs(mesh, space, edge);
         let mut normals: Vec<Option<Point>> = vec![None; space.dofs().shared()];
         let mut kinks = vec![false; normals.len()];
         let ends = Tabulated::at_nodes(&P2, &P2);

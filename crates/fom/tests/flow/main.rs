@@ -2,6 +2,7 @@
 
 mod conditions;
 mod exact;
+mod loads;
 mod manufactured;
 mod restart;
 mod setups;

@@ -111,12 +111,12 @@ impl<const N: usize, const G: usize, const M: usize> Group<N, G, M> {
         terms: &Terms,
         fields: &NodalFields<'_>,
         cells: Range<usize>,
-        output: Output<'_>,
+        Output { matrices, right, recoveries }: Output<'_>,
     ) {
         let rim = Self::RIM;
-        let matrices = output.matrices.chunks_mut(WIDTH * rim * rim);
-        let right = output.right.chunks_mut(WIDTH * rim);
-        let recoveries = output.recoveries.chunks_mut(WIDTH * recovery(rim));
+        let matrices = matrices.chunks_mut(WIDTH * rim * rim);
+        let right = right.chunks_mut(WIDTH * rim);
+        let recoveries = recoveries.chunks_mut(WIDTH * recovery(rim));
         let outputs = matrices.zip(right).zip(recoveries);
         for (first, ((matrices, right), recoveries)) in cells.clone().step_by(WIDTH).zip(outputs) {
             let fields =

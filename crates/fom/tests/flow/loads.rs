@@ -1,0 +1,117 @@
+//! Loads with known answers.
+
+use super::setups::{order, parameters};
+use lumley_fem::{MeshDescription, PlanarMesh, Point};
+use lumley_fom::TimeScheme;
+use lumley_fom::flow::{
+    Condition, Flow, FlowParameters, FlowSetup, FlowStart, Linearisation, SteadyLimits, ViscousForm,
+};
+use lumley_fom::motion::{
+    MeshMotion, MotionFunction, MotionParameters, MovingBoundary, PrescribedMotion, RigidMotion,
+};
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+const INNER: f64 = 0.5;
+const OUTER: f64 = 1.5;
+const SPIN: f64 = 0.8;
+
+/// A ring with a closed inside `bottom` and outside `top`, as the ends of the bent strip are made one.
+fn ring(n: usize) -> PlanarMesh {
+    let map = |[x, y]: Point| {
+        let (sin, cos) = (-TAU * x).sin_cos();
+        let radius = INNER + (OUTER - INNER) * y;
+        [radius * cos, radius * sin]
+    };
+    let mut mesh = MeshDescription::structured([4 * n, n], |[i, _]| i % 2 == 0, map);
+    // The nodes at the end of each row are those at its beginning.
+    let row = 8 * n + 1;
+    let first = |node: &mut usize| {
+        *node -= if *node % row == row - 1 { row - 1 } else { 0 };
+        *node -= *node / row;
+    };
+    mesh.triangles.iter_mut().flatten().for_each(first);
+    mesh.quadrilaterals.iter_mut().flatten().for_each(first);
+    mesh.boundaries.retain(|boundary| ["bottom", "top"].contains(&boundary.name.as_str()));
+    mesh.boundaries.iter_mut().flat_map(|b| &mut b.edges).flatten().for_each(first);
+    let points = mesh.points.iter().enumerate();
+    mesh.points = points.filter(|(k, _)| k % row != row - 1).map(|(_, point)| *point).collect();
+    PlanarMesh::new(mesh).expect("a ring")
+}
+
+fn fluid(form: ViscousForm) -> FlowParameters {
+    let parameters = parameters(TimeScheme::Bdf2, form, Linearisation::default());
+    FlowParameters { body_force: None, ..parameters }
+}
+
+/// Flow between cylinders, the inner of which turns (Couette): the moment on it is `−4π μ Ω a² b²/(b² − a²)`, whatever
+/// the viscous form.
+#[test]
+fn moment_on_a_turning_cylinder() {
+    let spin = |[x, y]: Point, _: f64| [-SPIN * y, SPIN * x];
+    for form in [ViscousForm::Stress, ViscousForm::Laplacian] {
+        let errors = [3, 6].map(|n| {
+            let parameters = fluid(form);
+            let (a, b) = (INNER * INNER, OUTER * OUTER);
+            let exact = -4.0 * PI * parameters.viscosity * SPIN * a * b / (b - a);
+            let mut flow = Flow::new(FlowSetup {
+                mesh: ring(n),
+                parameters,
+                conditions: vec![
+                    ("bottom".into(), Condition::Velocity(Arc::new(spin))),
+                    ("top".into(), Condition::NoSlip),
+                ],
+                start: FlowStart::Stokes,
+                motion: None,
+                parallel: false,
+            })
+            .expect("a flow");
+            flow.settle(SteadyLimits::default(), |_, _| {}).expect("a steady flow");
+            let inner = flow.loads()[0];
+            assert!(inner.force.iter().all(|f| f.abs() < 1e-8), "{inner:?}");
+            // In the fluid nothing is lost: the outer cylinder takes the moment.
+            let outer = flow.loads()[1].moment;
+            assert!((inner.moment + outer).abs() < 2e-3 * outer, "{form:?}: {inner:?} {outer}");
+            let surface = flow.surface_load("bottom").expect("a boundary").moment;
+            [inner.moment, surface].map(|moment| (moment / exact - 1.0).abs())
+        });
+        let order = order(errors[0][0], errors[1][0]);
+        assert!(errors[1][0] < 2e-3 && order > 3.0, "{form:?}: {errors:?}, order {order}");
+        assert!(errors[1][1] < 0.02, "{form:?}: {errors:?}");
+    }
+}
+
+/// A cylinder that starts to move in a fluid at rest carries the added mass of the potential flow,
+/// `ρ π a² (b² + a²)/(b² − a²)` between cylinders: the force of the first short step is that times V/dt, and that of
+/// the layer of fluid, a cell thick, that sticks to it.
+#[test]
+fn impulse_of_an_impulsive_start() {
+    let density = fluid(ViscousForm::Stress).density;
+    let (a, b) = (INNER * INNER, OUTER * OUTER);
+    let mass = density * PI * a * (b + a) / (b - a);
+    let [coarse, fine] = [12, 24].map(|n| impulse(n) / mass - 1.0);
+    assert!(coarse > 0.0 && fine < 0.6 * coarse, "{coarse} {fine}");
+    assert!((2.0 * fine - coarse).abs() < 0.01, "{coarse} {fine}");
+}
+
+/// Force of the first step times its length, over the velocity of the cylinder.
+fn impulse(n: usize) -> f64 {
+    let mesh = ring(n);
+    let boundary = MovingBoundary { name: "bottom".into(), pivot: [0.0, 0.0] };
+    let motion = MeshMotion::new(&mesh, &[boundary], &MotionParameters::default());
+    let shift = |t: f64| RigidMotion { translation: [0.1 * t, 0.0], angle: 0.0 };
+    let functions: Vec<MotionFunction> = vec![Arc::new(shift)];
+    let motion = PrescribedMotion::new(motion.expect("a motion"), functions).expect("one function");
+    let mut flow = Flow::new(FlowSetup {
+        mesh,
+        parameters: FlowParameters { viscosity: 1e-6, ..fluid(ViscousForm::Stress) },
+        conditions: ["bottom", "top"].map(|name| (name.into(), Condition::NoSlip)).into(),
+        start: FlowStart::Rest,
+        motion: Some(Box::new(motion)),
+        parallel: false,
+    })
+    .expect("a flow");
+    let dt = 1e-3;
+    flow.step(dt).expect("a step");
+    -flow.loads()[0].force[0] * dt / 0.1
+}
