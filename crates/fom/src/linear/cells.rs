@@ -1,5 +1,6 @@
 use super::Scalar;
 use super::kernel;
+use super::simd::vectorised;
 use std::ops::Range;
 use thiserror::Error;
 
@@ -138,11 +139,11 @@ impl CellUnknowns {
         assert_eq!(matrices.len(), self.matrix_len(), "the matrices of all cells");
         assert_eq!([x.len(), y.len()], [self.count; 2], "one entry for each unknown");
         y.fill(T::default());
-        pulp::Arch::new().dispatch(
+        vectorised(
             #[inline(always)]
             || {
                 for cell in 0..self.cells() {
-                    kernel::add_cell_product(self.of(cell), &matrices[self.matrix(cell)], x, y);
+                    kernel::add_cell_product(self.of(cell), &matrices[self.matrices[cell]..], x, y);
                 }
             },
         );

@@ -12,6 +12,7 @@ mod kernel;
 mod lagged;
 mod multifrontal;
 mod scalar;
+mod simd;
 mod vector;
 
 pub use bordered::{BorderRow, BorderedTridiagonal, CellMatrix};
@@ -20,3 +21,4 @@ pub use gmres::{Gmres, GmresError, GmresLimits};
 pub use lagged::{LaggedError, LaggedSolver, LaggedStep, RenewalPolicy};
 pub use multifrontal::{Analysis, DelayedUnknowns, Multifrontal, SingularMatrix};
 pub use scalar::Scalar;
+pub(crate) use simd::vectorised;

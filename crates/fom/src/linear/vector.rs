@@ -1,13 +1,14 @@
 //! Sums over long vectors. The order of the sums is the same on all processors.
 
 use super::kernel;
+use super::simd::vectorised;
 
 /// Partial sums of a dot product.
 const LANES: usize = 16;
 
 /// `x·y`
 pub(super) fn dot(x: &[f64], y: &[f64]) -> f64 {
-    pulp::Arch::new().dispatch(
+    vectorised(
         #[inline(always)]
         || {
             let mut sums = [0.0; LANES];
@@ -30,7 +31,7 @@ pub(super) fn norm(x: &[f64]) -> f64 {
 
 /// `y ← y + s x`
 pub(super) fn add_scaled(y: &mut [f64], x: &[f64], s: f64) {
-    pulp::Arch::new().dispatch(
+    vectorised(
         #[inline(always)]
         || kernel::add_scaled(y, x, s),
     );

@@ -160,3 +160,36 @@ fn products_are_those_of_the_cells() {
     }
     assert!(largest_difference(&y, &expected) < 1e-14);
 }
+
+/// Products go by strips of rows, and the last columns of the last cell must not be read beyond their end.
+#[test]
+fn cells_of_every_size_are_multiplied() {
+    for size in 1..=70 {
+        let cells = [(0..size).collect::<Vec<_>>(), (0..size).rev().collect()];
+        let cells = CellUnknowns::new(size, &cells).expect("a sound numbering");
+        let (matrices, x) = (noise(cells.matrix_len()), noise(size));
+        let mut y = vec![0.0; size];
+        cells.multiply(&matrices, &x, &mut y);
+        let mut expected = vec![0.0; size];
+        for cell in 0..2 {
+            for (k, a) in matrices[cells.matrix(cell)].iter().enumerate() {
+                let [row, column] = [k % size, k / size].map(|k| cells.of(cell)[k] as usize);
+                expected[row] += a * x[column];
+            }
+        }
+        assert!(largest_difference(&y, &expected) < 1e-13, "{size} unknowns");
+    }
+}
+
+/// Fronts without room behind them, whose blocks end within a vector register and are inverted or factorised.
+#[test]
+fn blocks_of_every_size_are_eliminated() {
+    for count in 1..=70 {
+        let scattered = Scattered::new(count, 1, count);
+        let (matrices, b) = (scattered.matrices(8.0), noise(count));
+        let exact = scattered.reference(&matrices, &b);
+        let double = largest_difference(&solve::<f64>(&scattered, &matrices, &b), &exact);
+        let single = largest_difference(&solve::<f32>(&scattered, &matrices, &b), &exact);
+        assert!(double < 1e-13 && single < 1e-4, "{count} unknowns: {double:e}, {single:e}");
+    }
+}

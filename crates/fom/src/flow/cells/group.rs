@@ -1,6 +1,7 @@
 use super::condense::{Dense, INTERIOR, recovery};
 use super::integrals::{Fields, ReferencePoint, Terms, integrate};
 use super::lanes::{Lanes, WIDTH};
+use crate::linear::vectorised;
 use lumley_fem::Point;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -90,16 +91,15 @@ impl<const N: usize, const G: usize, const M: usize> Group<N, G, M> {
         terms: &Terms,
         fields: &NodalFields<'_>,
         cells: Range<usize>,
-        output: Output<'_>,
+        mut output: Output<'_>,
     ) {
-        let coupled = terms.stress || terms.newton;
-        pulp::Arch::new().dispatch(
+        vectorised(
             #[inline(always)]
             || {
-                if coupled {
-                    self.batches::<N>(terms, fields, cells, output);
+                if terms.stress || terms.newton {
+                    self.batches::<N>(terms, fields, &cells, &mut output);
                 } else {
-                    self.batches::<0>(terms, fields, cells, output);
+                    self.batches::<0>(terms, fields, &cells, &mut output);
                 }
             },
         );
@@ -110,13 +110,13 @@ impl<const N: usize, const G: usize, const M: usize> Group<N, G, M> {
         &self,
         terms: &Terms,
         fields: &NodalFields<'_>,
-        cells: Range<usize>,
-        Output { matrices, right, recoveries }: Output<'_>,
+        cells: &Range<usize>,
+        output: &mut Output<'_>,
     ) {
         let rim = Self::RIM;
-        let matrices = matrices.chunks_mut(WIDTH * rim * rim);
-        let right = right.chunks_mut(WIDTH * rim);
-        let recoveries = recoveries.chunks_mut(WIDTH * recovery(rim));
+        let matrices = output.matrices.chunks_mut(WIDTH * rim * rim);
+        let right = output.right.chunks_mut(WIDTH * rim);
+        let recoveries = output.recoveries.chunks_mut(WIDTH * recovery(rim));
         let outputs = matrices.zip(right).zip(recoveries);
         for (first, ((matrices, right), recoveries)) in cells.clone().step_by(WIDTH).zip(outputs) {
             let fields =

@@ -4,6 +4,7 @@ use super::SingularMatrix;
 use super::analysis::{Analysis, Front, Run};
 use super::pivot_block::{self, Floors, SMALL};
 use crate::linear::Scalar;
+use crate::linear::simd::vectorised;
 use faer::linalg::matmul::matmul;
 use faer::prelude::Reborrow;
 use faer::{Accum, MatMut, MatRef, Par};
@@ -96,7 +97,7 @@ impl<T: Scalar> Elimination<'_, T> {
     }
 
     fn add_up(&self, front: &Front, contributions: &[T], columns: &mut Columns<'_, T>) {
-        pulp::Arch::new().dispatch(
+        vectorised(
             #[inline(always)]
             || {
                 columns.left.fill(T::default());

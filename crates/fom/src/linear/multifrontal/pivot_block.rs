@@ -3,6 +3,7 @@
 use super::SingularMatrix;
 use crate::linear::Scalar;
 use crate::linear::kernel::add_scaled;
+use crate::linear::simd::vectorised;
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve as triangular;
 use faer::prelude::{Reborrow, ReborrowMut};
@@ -55,7 +56,7 @@ pub(super) fn invert<T: Scalar>(
     exchanges: &mut [u32],
     floors: &mut Floors<'_, T>,
 ) -> Result<(), Refused> {
-    pulp::Arch::new().dispatch(
+    vectorised(
         #[inline(always)]
         || invert_inlined(a, stride, exchanges, floors),
     )
@@ -71,27 +72,28 @@ fn invert_inlined<T: Scalar>(
 ) -> Result<(), Refused> {
     let size = exchanges.len();
     let mut column = [T::default(); SMALL];
-    let column = &mut column[..size];
+    // Whole vectors: below the block zeros are subtracted.
+    let wide = size.next_multiple_of(8).min(stride);
     for p in 0..size {
         let row = largest(&a[p * stride..][..size], p);
         exchange(a, stride, size, p, row);
         floors.rows.swap(p, row);
         exchanges[p] = row as u32;
-        column.copy_from_slice(&a[p * stride..][..size]);
+        column[..size].copy_from_slice(&a[p * stride..][..size]);
         floors.check(p, p, column[p])?;
         let inverse = T::from_f64(1.0) / column[p];
         column[p] = T::default();
         for (j, other) in a.chunks_mut(stride).take(size).enumerate() {
-            let other = &mut other[..size];
+            let other = &mut other[..wide];
             if j == p {
-                for (x, &c) in other.iter_mut().zip(column.iter()) {
+                for (x, &c) in other[..size].iter_mut().zip(&column) {
                     *x = -(c * inverse);
                 }
                 other[p] = inverse;
             } else {
                 let scaled = other[p] * inverse;
                 other[p] = scaled;
-                add_scaled(other, column, -scaled);
+                add_scaled(other, &column[..wide], -scaled);
             }
         }
     }
@@ -140,7 +142,7 @@ fn factorise_columns<T: Scalar>(
 ) -> Result<(), Refused> {
     let columns = exchanges.len();
     if columns <= PANEL {
-        return pulp::Arch::new().dispatch(
+        return vectorised(
             #[inline(always)]
             || factorise_panel(a, shape, exchanges, floors),
         );

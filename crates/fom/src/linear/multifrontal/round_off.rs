@@ -2,6 +2,8 @@
 
 use super::analysis::Analysis;
 use crate::linear::Scalar;
+use crate::linear::kernel::STRIP;
+use crate::linear::simd::vectorised;
 
 /// Sets the floors so that entry (i, j) is round-off below `rows[i] columns[j]`, both in the order of
 /// elimination: `columns[j] = max_i |a_ij|` and `rows[i] = SINGULAR max_j |a_ij| / columns[j]` over
@@ -15,20 +17,45 @@ pub(super) fn floors<T: Scalar>(
 ) {
     rows.fill(T::default());
     columns.fill(T::default());
-    pulp::Arch::new().dispatch(
+    vectorised(
         #[inline(always)]
         || {
-            for_each_column(analysis, matrices, |_, j, column| {
-                raise(&mut columns[j], T::from_f64(largest(column)));
-            });
-            for_each_column(analysis, matrices, |places, j, column| {
-                let scale = T::SINGULAR / columns[j].to_f64();
-                for (a, &i) in column.iter().zip(places) {
-                    raise(&mut rows[i as usize], T::from_f64(scale * a.abs()));
+            for cell in 0..analysis.cells.cells() {
+                let (places, matrix) = cell_of(analysis, matrices, cell);
+                for (column, &j) in matrix.chunks_exact(places.len().max(1)).zip(places) {
+                    raise(&mut columns[j as usize], T::from_f64(largest(column)));
                 }
-            });
+            }
+            for cell in 0..analysis.cells.cells() {
+                let (places, matrix) = cell_of(analysis, matrices, cell);
+                raise_rows(places, matrix, columns, rows);
+            }
         },
     );
+}
+
+/// Places of the unknowns of a cell, and its matrix.
+#[inline(always)]
+fn cell_of<'a>(analysis: &'a Analysis, matrices: &'a [f64], cell: usize) -> (&'a [u32], &'a [f64]) {
+    let places = &analysis.cell_places[analysis.cells.of_range(cell)];
+    (places, &matrices[analysis.cells.matrix(cell)])
+}
+
+/// Takes a cell's rows in: first over its columns, where they are neighbours, then where they belong.
+#[inline(always)]
+fn raise_rows<T: Scalar>(places: &[u32], matrix: &[f64], columns: &[T], rows: &mut [T]) {
+    for (block, part) in places.chunks(STRIP).enumerate() {
+        let mut most = [T::default(); STRIP];
+        for (column, &j) in matrix.chunks_exact(places.len()).zip(places) {
+            let scale = T::SINGULAR / columns[j as usize].to_f64();
+            for (most, a) in most.iter_mut().zip(&column[block * STRIP..][..part.len()]) {
+                raise(most, T::from_f64(scale * a.abs()));
+            }
+        }
+        for (&i, &most) in part.iter().zip(&most) {
+            raise(&mut rows[i as usize], most);
+        }
+    }
 }
 
 #[inline(always)]
@@ -48,20 +75,4 @@ fn largest(column: &[f64]) -> f64 {
         }
     }
     rest.iter().chain(&lanes).fold(0.0, |m, a| if a.abs() > m { a.abs() } else { m })
-}
-
-/// Calls `f` with the places of the unknowns of a cell, the place of a column and its entries.
-#[inline(always)]
-fn for_each_column(
-    analysis: &Analysis,
-    matrices: &[f64],
-    mut f: impl FnMut(&[u32], usize, &[f64]),
-) {
-    for cell in 0..analysis.cells.cells() {
-        let places = &analysis.cell_places[analysis.cells.of_range(cell)];
-        let matrix = &matrices[analysis.cells.matrix(cell)];
-        for (column, &j) in matrix.chunks_exact(places.len().max(1)).zip(places) {
-            f(places, j as usize, column);
-        }
-    }
 }

@@ -4,6 +4,7 @@ use super::analysis::{Analysis, Front};
 use super::pivot_block::{SMALL, solve_vector};
 use crate::linear::Scalar;
 use crate::linear::kernel::add_product;
+use crate::linear::simd::vectorised;
 use std::ops::Range;
 
 /// Solves for right-hand sides in the order of elimination, one after the other in `x`.
@@ -16,25 +17,31 @@ pub(super) fn substitute<T: Scalar>(
     x: &mut [T],
     gathered: &mut [T],
 ) {
-    let (factors, exchanges) = factors;
-    let mut end = 0;
+    vectorised(
+        #[inline(always)]
+        || {
+            for x in x.chunks_exact_mut(analysis.order.len()) {
+                substitute_inlined(analysis, factors, x, gathered);
+            }
+        },
+    );
+}
+
+#[inline(always)]
+fn substitute_inlined<T: Scalar>(
+    analysis: &Analysis,
+    (factors, exchanges): (&[T], &[u32]),
+    x: &mut [T],
+    gathered: &mut [T],
+) {
+    let mut at = 0;
     for front in &analysis.fronts {
-        let start = end;
-        end += front.own_entries();
-        let step = Step::new(analysis, front, &factors[start..end], exchanges);
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || x.chunks_exact_mut(analysis.order.len()).for_each(|x| step.forward(x, gathered)),
-        );
+        Step::new(analysis, front, &factors[at..], exchanges).forward(x, gathered);
+        at += front.own_entries();
     }
     for front in analysis.fronts.iter().rev() {
-        let start = end - front.own_entries();
-        let step = Step::new(analysis, front, &factors[start..end], exchanges);
-        end = start;
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || x.chunks_exact_mut(analysis.order.len()).for_each(|x| step.backward(x, gathered)),
-        );
+        at -= front.own_entries();
+        Step::new(analysis, front, &factors[at..], exchanges).backward(x, gathered);
     }
 }
 
@@ -43,21 +50,22 @@ struct Step<'a, T> {
     pivots: Range<usize>,
     /// Places of the unknowns that are left.
     left: &'a [u32],
-    /// The columns of the pivots.
+    /// The columns of the pivots, and what follows.
     columns: &'a [T],
-    /// The rows of the pivots, `A₁₁⁻¹ A₁₂`.
+    /// The rows of the pivots, `A₁₁⁻¹ A₁₂`, and what follows.
     across: &'a [T],
     exchanges: &'a [u32],
 }
 
 impl<'a, T: Scalar> Step<'a, T> {
+    /// * `factors`: from the first entry of the front's own on
+    #[inline(always)]
     fn new(analysis: &'a Analysis, front: &Front, factors: &'a [T], exchanges: &'a [u32]) -> Self {
-        let (columns, across) = factors.split_at(front.pivots() * front.size());
         Self {
             pivots: front.eliminated.clone(),
             left: &analysis.left[front.left.clone()],
-            columns,
-            across,
+            columns: factors,
+            across: &factors[front.pivots() * front.size()..],
             exchanges: &exchanges[front.eliminated.clone()],
         }
     }
