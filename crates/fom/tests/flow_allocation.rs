@@ -2,6 +2,7 @@
 
 #[path = "../../fem/tests/counting/mod.rs"]
 mod counting;
+#[expect(dead_code, reason = "the tests of the flow use more of it")]
 #[path = "flow/exact.rs"]
 mod exact;
 #[expect(dead_code, reason = "the tests of the flow use more of it")]

@@ -1,5 +1,6 @@
 //! Meshes: the topology of cells and nodes, apart from the coordinates, which may move.
 
+mod bernstein;
 mod cells;
 mod check;
 mod description;

@@ -1,17 +1,18 @@
-//! Laplace's equation (25) with quadratic cells for one part between 0 and 1 for each body.
+//! Laplace's equation (25) with quadratic cells: which share of a body's motion each node takes.
 
-use super::outline::Outline;
+use super::MotionError;
 use super::zone::Tie;
-use super::{MotionError, Stiffness};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::linalg::cholesky::{LltRef, SymmetricOrdering, factorize_symbolic_cholesky};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymmetricOrdering, factorize_symbolic_cholesky,
+};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, Mat, Par, Side, Spec};
-use lumley_fem::PlanarMesh;
 use lumley_fem::element::{Element, Q2, TriangleP2};
 use lumley_fem::geometry::{Mapped, Tabulated};
 use lumley_fem::quadrature::rule;
+use lumley_fem::{PlanarMesh, Point};
 
 /// Degree of the quadrature: exact for straight cells.
 const DEGREE: usize = 4;
@@ -20,13 +21,14 @@ const DEGREE: usize = 4;
 pub(super) struct Laplace<'a> {
     pub mesh: &'a PlanarMesh,
     pub ties: &'a [Tie],
-    pub moving: &'a [Outline],
-    pub stiffness: Stiffness,
+    pub bodies: usize,
+    /// lambda, given a point and the area of its cell over that of the mean cell.
+    pub stiffness: &'a dyn Fn(Point, f64) -> f64,
 }
 
 /// The equations of the free nodes.
 struct System {
-    /// Number of each free node among them.
+    /// How many free nodes stand before each node: the number of a free one.
     numbers: Vec<usize>,
     free: usize,
     /// The upper triangle.
@@ -50,11 +52,12 @@ impl Laplace<'_> {
     fn assemble(&self) -> System {
         let mut free = 0;
         let count = |tie: &Tie| {
+            let before = free;
             free += usize::from(*tie == Tie::Free);
-            free.wrapping_sub(1)
+            before
         };
         let numbers = self.ties.iter().map(count).collect();
-        let load = Mat::zeros(free, self.moving.len());
+        let load = Mat::zeros(free, self.bodies);
         let mut system = System { numbers, free, matrix: Vec::new(), load };
         let topology = self.mesh.topology();
         let area: f64 = self.mesh.cell_qualities().iter().map(|cell| cell.area).sum();
@@ -92,7 +95,7 @@ impl Laplace<'_> {
         let relative = mapped().map(|(m, _)| m.weight).sum::<f64>() / mean_area;
         let mut matrix = [[0.0; N]; N];
         for (mapped, at) in mapped() {
-            let lambda = self.stiffness.at(mapped.point, relative, self.moving);
+            let lambda = (self.stiffness)(mapped.point, relative);
             let gradients = mapped.gradients(&at.dphi);
             for (row, a) in matrix.iter_mut().zip(gradients) {
                 for (entry, b) in row.iter_mut().zip(gradients) {
@@ -123,10 +126,10 @@ impl System {
 /// By sparse Cholesky on one thread: the same bits on every number of threads.
 fn solve(matrix: &SparseColMat<usize, f64>, mut x: Mat<f64>) -> Result<Mat<f64>, MotionError> {
     let memory = || MotionError::Memory { unknowns: matrix.nrows() };
-    let order = SymmetricOrdering::Amd;
+    let (order, params) = (SymmetricOrdering::Amd, CholeskySymbolicParams::default());
     let pattern = matrix.symbolic();
-    let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, order, Default::default())
-        .map_err(|_| memory())?;
+    let symbolic =
+        factorize_symbolic_cholesky(pattern, Side::Upper, order, params).map_err(|_| memory())?;
     let scratch = symbolic
         .factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default())
         .or(symbolic.solve_in_place_scratch::<f64>(x.ncols(), Par::Seq));

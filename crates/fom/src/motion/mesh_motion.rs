@@ -1,6 +1,7 @@
 use super::laplace::Laplace;
 use super::outline::Outline;
 use super::rigid_motion::Turn;
+use super::stiffness::Follower;
 use super::zone::{Tie, ties};
 use super::{MotionError, MotionParameters, RigidMotion};
 use lumley_fem::{MeshError, PlanarMesh, Point, Topology};
@@ -23,14 +24,15 @@ pub struct MovingBoundary {
 /// The motion of a mesh whose boundaries move as rigid bodies, paper eqs. (24) and (25).
 ///
 /// For each boundary b that moves, `div(lambda grad h) = 0` with h = 1 on b and h = 0 on all other boundaries
-/// is solved once, on the mesh as it was given. Then the node that was at X is at
+/// is solved once, on the mesh as it was given; so is g with the stiffness of angles. Then the node that was
+/// at X is at
 ///
 /// ```text
-/// x = X + sum over b of h_b D_b + (R(h_b angle_b) - I) (X - c_b)
+/// x = X + sum over b of h_b D_b + (R(g_b angle_b) - I) (X - c_b)
 /// ```
 ///
 /// where c is the centre of the boundary and D how far it has moved. For translations this is (25) for the
-/// displacement; that angles fade and not displacements lets bodies turn by any angle. It does not matter
+/// displacement; that angles fade, and not the displacements by them, lets bodies turn far. It does not matter
 /// about which pivot a motion is described.
 ///
 /// ```
@@ -65,8 +67,8 @@ struct Body {
     centre: Point,
     /// Nodes that move rigidly with it.
     rigid: Vec<usize>,
-    /// h at the free nodes.
-    part: Vec<f64>,
+    /// h and g at the free nodes.
+    shares: Vec<[f64; 2]>,
 }
 
 impl MeshMotion {
@@ -85,14 +87,20 @@ impl MeshMotion {
         let outlines: Vec<Outline> = numbers.iter().map(outline).collect();
         let ties = ties(mesh, &numbers, &outlines, parameters.rigid_zone)?;
         let stiffness = parameters.stiffness;
-        let parts = Laplace { mesh, ties: &ties, moving: &outlines, stiffness }.solve()?;
+        let solve = |follower: Follower| {
+            let stiffness = |at: Point, area: f64| stiffness.at(follower, at, area, &outlines);
+            let bodies = moving.len();
+            Laplace { mesh, ties: &ties, bodies, stiffness: &stiffness }.solve()
+        };
+        let (h, g) = (solve(Follower::Displacement)?, solve(Follower::Angle)?);
+        let shares = |b: usize| (0..h.nrows()).map(|k| [h[(k, b)], g[(k, b)]]).collect();
         let tied = |tie: Tie| (0..ties.len()).filter(|&node| ties[node] == tie).collect();
         let bodies =
             moving.iter().zip(&outlines).enumerate().map(|(b, (boundary, outline))| Body {
                 boundary: boundary.clone(),
                 centre: outline.centre(),
                 rigid: tied(Tie::Body(b)),
-                part: parts.col(b).iter().copied().collect(),
+                shares: shares(b),
             });
         let bodies = bodies.collect();
         Ok(Self { reference: mesh.nodes().to_vec(), free: tied(Tie::Free), bodies })
@@ -124,11 +132,11 @@ impl MeshMotion {
     fn place_free(&self, body: &Body, position: &RigidMotion, nodes: &mut [Point]) {
         let (centre, angle) = (body.centre, position.angle);
         let moved = position.displacement(body.boundary.pivot, centre);
-        for (&node, &part) in self.free.iter().zip(&body.part) {
+        for (&node, [h, g]) in self.free.iter().zip(&body.shares) {
             let [x, y] = self.reference[node];
-            let turned = Turn::by(part * angle).displacement([x - centre[0], y - centre[1]]);
-            nodes[node][0] += part * moved[0] + turned[0];
-            nodes[node][1] += part * moved[1] + turned[1];
+            let turned = Turn::by(g * angle).displacement([x - centre[0], y - centre[1]]);
+            nodes[node][0] += h * moved[0] + turned[0];
+            nodes[node][1] += h * moved[1] + turned[1];
         }
     }
 

@@ -1,7 +1,7 @@
 //! Mesh motion, paper eqs. (24) and (25): nodes follow the boundaries that move and stay on those that do
-//! not; in between they share the motion in a part that solves Laplace's equation.
+//! not; in between they take a share of the motion that solves Laplace's equation.
 //!
-//! The part is found once, on the mesh as it was given, so that nodes depend on where the bodies are and on
+//! The shares are found once, on the mesh as it was given, so that nodes depend on where the bodies are and on
 //! nothing else: a periodic motion brings the mesh back, a restart needs no history, and a step costs no
 //! solve (departure 11 in `docs/deviations.md`).
 

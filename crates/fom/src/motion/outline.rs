@@ -100,7 +100,7 @@ mod tests {
     use super::*;
     use lumley_fem::MeshDescription;
 
-    /// The lower side of an L of points: distances by hand, the groups do not show.
+    /// Distances by hand: the groups do not show.
     #[test]
     fn distances_from_a_side_of_a_square() -> Result<(), lumley_fem::MeshError> {
         let description = MeshDescription::structured([37, 2], |_| false, |p| p);

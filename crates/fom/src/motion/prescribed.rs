@@ -9,17 +9,20 @@ pub type MotionFunction = Arc<dyn Fn(f64) -> RigidMotion + Send + Sync>;
 /// A mesh motion that follows given functions of time.
 ///
 /// ```
-/// use lumley_fem::{MeshDescription, PlanarMesh};
-/// use lumley_fom::motion::{MeshMotion, MotionParameters, MovingBoundary, PrescribedMotion, RigidMotion};
+/// use lumley_fem::{PlanarMesh, generate::Channel};
+/// use lumley_fom::motion::*;
 /// use std::sync::Arc;
-/// // A ring whose inner boundary swings.
-/// let ring = |[x, y]: [f64; 2]| {
-///     let (sin, cos) = (y * std::f64::consts::FRAC_PI_2).sin_cos();
-///     [(1.0 + x) * cos, (1.0 + x) * sin]
-/// };
-/// # let square = |p| p;
-/// # let ring = if false { ring } else { square };
-/// let mut mesh = PlanarMesh::new(MeshDescription::structured([4, 8], |_| false, ring))?;
+/// let channel: Channel = toml::from_str(
+///     "x = [-2, 4]\ny = [-2, 2]\nsize = 0.5
+///      [[bodies]]\nname = 'disc'\nsize = 0.2\nshape = { kind = 'disc', centre = [0, 0], radius = 0.5 }",
+/// )?;
+/// let mut mesh = PlanarMesh::new(channel.mesh()?)?;
+/// let disc = MovingBoundary { name: "disc".into(), pivot: [0.0, 0.0] };
+/// let motion = MeshMotion::new(&mesh, &[disc], &MotionParameters::default())?;
+/// let heave = |t: f64| RigidMotion { translation: [0.0, 0.5 * t.sin()], angle: 0.0 };
+/// let mut prescribed = PrescribedMotion::new(motion, vec![Arc::new(heave)])?;
+/// prescribed.carry(0.3, &mut mesh)?;
+/// assert_eq!(prescribed.positions(), [heave(0.3)]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone)]

@@ -64,7 +64,9 @@ fn reach(mesh: &PlanarMesh, outline: &Outline) -> Vec<f64> {
     for cell in 0..mesh.topology().cells() {
         let nodes = mesh.topology().cell_nodes(cell);
         let nearest = nodes.iter().map(|&node| distances[node]).fold(f64::INFINITY, f64::min);
-        nodes.iter().for_each(|&node| reach[node] = nearest.min(reach[node]));
+        for &node in nodes {
+            reach[node] = nearest.min(reach[node]);
+        }
     }
     reach
 }

@@ -1,5 +1,6 @@
 use super::GenerateError;
-use super::plane::{add, cross, scale, subtract};
+use super::plane::{add, cross, scale};
+use crate::mesh::bernstein::on_triangle;
 use crate::{MeshDescription, Point};
 
 /// Whether the reference cells are mapped with positive Jacobian determinants: on triangles everywhere, on
@@ -9,7 +10,7 @@ use crate::{MeshDescription, Point};
 /// [`GenerateError::Folded`].
 pub(super) fn check(mesh: &MeshDescription) -> Result<(), GenerateError> {
     let point = |node: usize| mesh.points[node];
-    let triangles = mesh.triangles.iter().map(|t| (of_triangle(t.map(point)), &t[..3]));
+    let triangles = mesh.triangles.iter().map(|t| (on_triangle(&t.map(point)).least, &t[..3]));
     let quadrilaterals =
         mesh.quadrilaterals.iter().map(|q| (of_quadrilateral(q.map(point)), &q[..4]));
     for (least, corners) in triangles.chain(quadrilaterals) {
@@ -20,18 +21,6 @@ pub(super) fn check(mesh: &MeshDescription) -> Result<(), GenerateError> {
         }
     }
     Ok(())
-}
-
-/// A lower bound of the determinant: its smallest Bernstein coefficient.
-fn of_triangle([v0, v1, v2, m01, m12, m20]: [Point; 6]) -> f64 {
-    let control = |m: Point, a: Point, b: Point| subtract(scale(2.0, m), scale(0.5, add(a, b)));
-    let (q01, q12, q20) = (control(m01, v0, v1), control(m12, v1, v2), control(m20, v2, v0));
-    // Half of the derivatives, which are linear, at the corners.
-    let a = [subtract(q01, v0), subtract(v1, q01), subtract(q12, q20)];
-    let b = [subtract(q20, v0), subtract(q12, q01), subtract(v2, q20)];
-    let pairs = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)];
-    let coefficients = pairs.map(|(i, j)| 2.0 * (cross(a[i], b[j]) + cross(a[j], b[i])));
-    coefficients.into_iter().fold(f64::INFINITY, f64::min)
 }
 
 /// The smallest determinant at the nodes.
@@ -52,15 +41,12 @@ fn of_quadrilateral(x: [Point; 9]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{of_quadrilateral, of_triangle};
+    use super::of_quadrilateral;
 
     /// Areas of the straight cells, and cells whose middles are pushed too far: past the quarter point the
     /// map of an edge turns back.
     #[test]
     fn determinants_of_simple_cells() {
-        let triangle = |x| [[0., 0.], [2., 0.], [0., 2.], [x, 0.], [1., 1.], [0., 1.]];
-        assert_eq!(of_triangle(triangle(1.0)), 4.0);
-        assert!(of_triangle(triangle(0.51)) > 0.0 && of_triangle(triangle(0.49)) < 0.0);
         let square = |y| {
             [
                 [0., 0.],
