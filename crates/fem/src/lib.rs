@@ -8,6 +8,7 @@ pub mod element;
 mod field;
 pub mod geometry;
 mod grid;
+mod location;
 mod mesh;
 pub mod quadrature;
 pub mod space;
@@ -16,6 +17,7 @@ pub mod transfer;
 pub use characteristic::characteristic;
 pub use field::MovingField;
 pub use grid::UniformGrid;
+pub use location::{Location, PointLocator};
 pub use mesh::{
     Boundary, CellPlace, CellQuality, Edge, EdgePlace, Extreme, LineMesh, MeshDescription,
     MeshError, MeshQuality, NamedBoundary, NodePlace, NodeRole, PlanarMesh, Side, Topology,

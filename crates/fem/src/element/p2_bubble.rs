@@ -42,6 +42,16 @@ impl Element for P2Bubble {
         }
         (phi[6], dphi[6]) = (b, db);
     }
+
+    fn values(&self, [x, y]: Point, phi: &mut [f64]) {
+        let l = [1.0 - x - y, x, y];
+        let b = 27.0 * l[0] * l[1] * l[2];
+        for i in 0..3 {
+            phi[i] = l[i] * (2.0 * l[i] - 1.0) + b / 9.0;
+            phi[3 + i] = 4.0 * (l[i] * l[(i + 1) % 3] - b / 9.0);
+        }
+        phi[6] = b;
+    }
 }
 
 /// `27 λ₀ λ₁ λ₂` and its gradient.

@@ -43,4 +43,15 @@ impl Element for Q2 {
     fn tabulate(&self, point: Point, phi: &mut [f64], dphi: &mut [Point]) {
         tensor::tabulate(&P2, &PAIRS, point, phi, dphi);
     }
+
+    fn values(&self, [x, y]: Point, phi: &mut [f64]) {
+        let along = |s: f64| {
+            let t = 1.0 - s;
+            [t * (2.0 * t - 1.0), s * (2.0 * s - 1.0), 4.0 * s * t]
+        };
+        let (fx, fy) = (along(x), along(y));
+        for (phi, [i, j]) in phi.iter_mut().zip(PAIRS) {
+            *phi = fx[i] * fy[j];
+        }
+    }
 }

@@ -37,6 +37,20 @@ fn functions_are_nodal() {
 }
 
 #[test]
+fn values_alone_are_the_same() {
+    for (name, element) in ELEMENTS {
+        for &point in samples(element.layout().cell) {
+            let expected = tabulated(*element, point).0;
+            let mut values = vec![f64::NAN; expected.len()];
+            element.values(point, &mut values);
+            for (value, phi) in values.iter().zip(expected) {
+                assert!((value - phi).abs() < 1e-15, "{name}: {value} {phi}");
+            }
+        }
+    }
+}
+
+#[test]
 fn functions_sum_to_one_and_gradients_to_zero() {
     for (name, element) in ELEMENTS {
         for &point in samples(element.layout().cell) {

@@ -73,6 +73,15 @@ impl DofMap {
         self.shared
     }
 
+    /// Shape of a cell.
+    pub fn kind(&self, cell: usize) -> Cell {
+        self.layout(cell).cell
+    }
+
+    fn layout(&self, cell: usize) -> DofLayout {
+        self.layouts[usize::from(cell >= self.triangles)]
+    }
+
     /// Dofs of a cell, in the order of its element: the interior ones last.
     pub fn cell(&self, cell: usize) -> &[usize] {
         &self.dofs[entries(self.triangles, self.layouts.map(DofLayout::nodes), cell)]
@@ -101,7 +110,7 @@ impl DofMap {
 
     /// Dofs on an edge of a cell: at its start, at its end, between them.
     pub fn on_edge(&self, Side { cell, edge }: Side) -> impl Iterator<Item = usize> {
-        let (layout, dofs) = (self.layouts[usize::from(cell >= self.triangles)], self.cell(cell));
+        let (layout, dofs) = (self.layout(cell), self.cell(cell));
         layout.on_edge(edge).map(|k| dofs[k])
     }
 

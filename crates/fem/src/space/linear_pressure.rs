@@ -44,6 +44,18 @@ impl LinearPressure {
         [1.0, (x - self.centre[0]) / self.scale, (y - self.centre[1]) / self.scale]
     }
 
+    /// The pressure with these coefficients at a point in m of the cell.
+    ///
+    /// ```
+    /// use lumley_fem::space::LinearPressure;
+    /// let of_cell = LinearPressure::centred([([1.0, 1.0], 4.0)]);
+    /// assert_eq!(of_cell.pressure(&[3.0, 1.0, -2.0], [2.0, 0.5]), 4.0);
+    /// ```
+    pub fn pressure(&self, coefficients: &[f64; 3], point: Point) -> f64 {
+        let [one, x, y] = self.values(point);
+        coefficients[0] * one + coefficients[1] * x + coefficients[2] * y
+    }
+
     /// The gradients of the functions, per m.
     pub fn gradients(&self) -> [Point; 3] {
         [[0.0; 2], [1.0 / self.scale, 0.0], [0.0, 1.0 / self.scale]]

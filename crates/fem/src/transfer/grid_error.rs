@@ -102,7 +102,7 @@ fn global_velocity_at(
 
 /// The (bi)linear field at a point counted in cells from the lower corner.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside of the grid")]
-fn interpolate(values: &[f64], grid: &UniformGrid, at: Point) -> f64 {
+pub(super) fn interpolate(values: &[f64], grid: &UniformGrid, at: Point) -> f64 {
     let nodes = grid.nodes();
     let cell = [0, 1].map(|d| (at[d] as usize).min(nodes[d].saturating_sub(2)));
     let along = |row: usize| {

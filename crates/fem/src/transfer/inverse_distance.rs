@@ -1,4 +1,5 @@
 use super::TransferError;
+use super::closest::shepard;
 use super::neighbours::Neighbours;
 use crate::{MovingField, Point};
 
@@ -26,20 +27,12 @@ impl<'a> InverseDistance<'a> {
     }
 
     pub(super) fn interpolate(&mut self, point: Point, v: &mut [f64]) {
-        let found = self.nodes.nearest(point);
-        let (closest, node) = found[0];
-        if closest == 0.0 {
-            return self.field.nodal_velocity(node, v);
-        }
         v.fill(0.0);
-        let mut sum = 0.0;
-        for &(square, node) in found {
-            // Relative to the closest node no weight overflows, however near that node is.
-            let weight = (closest / square).powf(0.5 * self.power);
-            self.field.nodal_velocity(node, &mut self.nodal);
-            v.iter_mut().zip(&self.nodal).for_each(|(v, nodal)| *v += weight * nodal);
-            sum += weight;
-        }
+        let Self { field, nodes, power, nodal } = self;
+        let sum = shepard(nodes.nearest(point), *power, |node, weight| {
+            field.nodal_velocity(node, nodal);
+            v.iter_mut().zip(&*nodal).for_each(|(v, nodal)| *v += weight * nodal);
+        });
         for v in v {
             *v /= sum;
         }

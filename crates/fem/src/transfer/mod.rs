@@ -1,11 +1,14 @@
 //! From a moving mesh to a fixed grid: the global velocity, paper eqs. (27)-(30).
 
+mod closest;
 mod finite_element;
 mod grid_error;
 mod inverse_distance;
 mod neighbours;
+mod planar;
 
 pub use grid_error::{GridError, grid_error};
+pub use planar::{Bodies, BodyError, Coverage, Place, PlanarFlow, PlanarTransfer};
 
 use crate::{MovingField, Point, UniformGrid};
 use inverse_distance::InverseDistance;

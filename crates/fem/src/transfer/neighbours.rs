@@ -1,14 +1,14 @@
+use super::closest::Closest;
 use crate::Point;
 
 /// Finds the k points of a set that are nearest to a given one.
 ///
 /// The points are sorted along the first axis and visited outwards from the given one, until the
 /// distance along that axis alone is too large. This is exact in any dimension; on a line it
-/// visits k + 1 points, in the plane a strip, where a tree would be faster.
+/// visits k + 1 points, in the plane a strip.
 pub(super) struct Neighbours {
     sorted: Vec<(Point, usize)>,
-    found: Vec<(f64, usize)>,
-    wanted: usize,
+    closest: Closest,
 }
 
 impl Neighbours {
@@ -17,13 +17,13 @@ impl Neighbours {
         let mut sorted: Vec<_> = points.enumerate().map(|(index, p)| (p, index)).collect();
         sorted.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
         assert!((1..=sorted.len()).contains(&wanted), "{wanted} of {} points", sorted.len());
-        Self { sorted, found: Vec::with_capacity(wanted + 1), wanted }
+        Self { sorted, closest: Closest::new(wanted) }
     }
 
     /// Squared distances in m² and indices of the nearest points, the nearest first; equal
     /// distances in the order of the points.
     pub(super) fn nearest(&mut self, p: Point) -> &[(f64, usize)] {
-        self.found.clear();
+        self.closest.clear();
         let mut right = self.sorted.partition_point(|(q, _)| q[0] < p[0]);
         let mut left = right;
         let gap = |entry: Option<&(Point, usize)>| {
@@ -32,7 +32,7 @@ impl Neighbours {
         while left > 0 || right < self.sorted.len() {
             let behind = gap(left.checked_sub(1).and_then(|k| self.sorted.get(k)));
             let ahead = gap(self.sorted.get(right));
-            if self.is_beyond(behind.min(ahead)) {
+            if behind.min(ahead).powi(2) > self.closest.limit() {
                 break;
             }
             let visited = if behind < ahead {
@@ -42,22 +42,10 @@ impl Neighbours {
                 right += 1;
                 right - 1
             };
-            self.insert(p, visited);
+            let (q, index) = self.sorted[visited];
+            self.closest.insert((q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2), index);
         }
-        &self.found
-    }
-
-    /// Whether no point at this distance or further along the axis can still be among the nearest.
-    fn is_beyond(&self, gap: f64) -> bool {
-        self.found.get(self.wanted - 1).is_some_and(|last| gap * gap > last.0)
-    }
-
-    fn insert(&mut self, p: Point, visited: usize) {
-        let (q, index) = self.sorted[visited];
-        let entry = ((q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2), index);
-        let place = self.found.partition_point(|found| *found < entry);
-        self.found.insert(place, entry);
-        self.found.truncate(self.wanted);
+        self.closest.found()
     }
 }
 

@@ -4,9 +4,11 @@ mod bad_input;
 mod disc;
 mod divergence;
 mod interpolation;
+mod location;
 mod motion;
 mod recovery;
 mod topology;
+mod transfer;
 
 use lumley_fem::element::{Cell, Element, Q2, TriangleP2};
 use lumley_fem::geometry::{Mapped, Tabulated};
