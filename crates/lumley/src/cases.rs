@@ -17,11 +17,33 @@ pub struct BuiltIn {
 }
 
 /// All of them.
-pub const CASES: &[BuiltIn] = &[BuiltIn {
-    name: "piston",
-    about: "Burgers piston on a spring: the paper's section 4, full-order and reduced (about 2 s)",
-    text: include_str!("../../../cases/piston/case.toml"),
-}];
+pub const CASES: &[BuiltIn] = &[
+    BuiltIn {
+        name: "piston",
+        about: "Burgers piston on a spring: the paper's section 4, full-order and reduced (about 2 s)",
+        text: include_str!("../../../cases/piston/case.toml"),
+    },
+    BuiltIn {
+        name: "cavity",
+        about: "square cavity under a moving lid, Re = 1000, steady",
+        text: include_str!("../../../cases/cavity/case.toml"),
+    },
+    BuiltIn {
+        name: "cylinder-2d1",
+        about: "cylinder in a channel, Re = 20, steady: Schaefer and Turek's benchmark 2D-1",
+        text: include_str!("../../../cases/cylinder-2d1/case.toml"),
+    },
+    BuiltIn {
+        name: "cylinder-2d2",
+        about: "vortex street in a channel, Re = 100, with POD: Schaefer and Turek's benchmark 2D-2",
+        text: include_str!("../../../cases/cylinder-2d2/case.toml"),
+    },
+    BuiltIn {
+        name: "oscillating-cylinder",
+        about: "cylinder that is moved up and down in a uniform stream, Re = 185, on a moving mesh",
+        text: include_str!("../../../cases/oscillating-cylinder/case.toml"),
+    },
+];
 
 /// The case called `name`.
 pub fn find(name: &str) -> Option<&'static BuiltIn> {

@@ -1,10 +1,18 @@
 use super::error::{CaseError, Place};
-use super::raw::CaseFile;
 use super::suggest::nearest;
-use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
 use toml::{Table, Value};
+
+/// What a case is a case of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// `[piston]`.
+    Piston,
+    /// `[flow]`.
+    Flow,
+}
 
 /// A case file as text, with what the command line lays over it.
 ///
@@ -29,8 +37,21 @@ impl Document {
         Ok(Self { path: path.to_owned(), text, quick, settings })
     }
 
+    /// Which of `[piston]` and `[flow]` there is.
+    pub(super) fn kind(&self) -> Result<Kind, CaseError> {
+        let mut table: Table = toml::from_str(&self.text).map_err(|e| self.syntax(&e))?;
+        self.apply_settings(&mut table)?;
+        let wrong = |found| Err(CaseError::Kind { path: self.path.clone(), found });
+        match (table.contains_key("piston"), table.contains_key("flow")) {
+            (true, false) => Ok(Kind::Piston),
+            (false, true) => Ok(Kind::Flow),
+            (true, true) => wrong("both"),
+            (false, false) => wrong("neither"),
+        }
+    }
+
     /// The file with all overrides applied, keys checked, values not yet.
-    pub(super) fn case_file(&self) -> Result<CaseFile, CaseError> {
+    pub(super) fn case_file<F: DeserializeOwned>(&self) -> Result<F, CaseError> {
         let mut table: Table = toml::from_str(&self.text).map_err(|e| self.syntax(&e))?;
         let quick = match table.remove("quick") {
             Some(Value::Table(quick)) => quick,
@@ -42,17 +63,17 @@ impl Document {
         // A slip in [quick] is told even when nobody asks for it.
         let mut quick_file = quick_table.clone();
         self.apply_settings(&mut quick_file)?;
-        let quick_file = CaseFile::deserialize(Value::Table(quick_file));
+        let quick_file = F::deserialize(Value::Table(quick_file));
         if self.quick {
-            return quick_file.map_err(|e| self.overridden(&e));
+            return quick_file.map_err(|e| self.overridden::<F>(&e));
         }
         let file = if self.settings.is_empty() {
             toml::from_str(&self.text).map_err(|e| self.syntax(&e))?
         } else {
             self.apply_settings(&mut table)?;
-            CaseFile::deserialize(Value::Table(table)).map_err(|e| self.overridden(&e))?
+            F::deserialize(Value::Table(table)).map_err(|e| self.overridden::<F>(&e))?
         };
-        quick_file.map(|_| file).map_err(|e| self.overridden(&e))
+        quick_file.map(|_| file).map_err(|e| self.overridden::<F>(&e))
     }
 
     fn apply_settings(&self, table: &mut Table) -> Result<(), CaseError> {
@@ -83,6 +104,14 @@ impl Document {
         }
     }
 
+    /// Where `key` was written, or else the section that is nearest around it.
+    pub(super) fn place_around(&self, key: &str) -> Place {
+        match (self.place(key), key.rsplit_once('.')) {
+            (Place::Default(_), Some((section, _))) => self.place_around(section),
+            (place, _) => place,
+        }
+    }
+
     fn has_quick(&self) -> bool {
         self.line("quick").is_some()
     }
@@ -105,6 +134,14 @@ impl Document {
         Some(self.line_at(value.span().start))
     }
 
+    /// The line of `key` where neither `[quick]` nor a setting may stand for it.
+    fn line_of_base(&self, key: &str) -> Option<usize> {
+        let section = key.split('.').next().unwrap_or_default();
+        let set = self.settings.iter().any(|(set, _)| set.split('.').next() == Some(section));
+        let over = set || self.line(&format!("quick.{section}")).is_some();
+        if over { None } else { self.line(key) }
+    }
+
     fn line_at(&self, offset: usize) -> usize {
         1 + self.text[..offset].matches('\n').count()
     }
@@ -119,11 +156,19 @@ impl Document {
         }
     }
 
-    fn overridden(&self, error: &toml::de::Error) -> CaseError {
+    fn overridden<F: DeserializeOwned>(&self, error: &toml::de::Error) -> CaseError {
         // The file may be wrong by itself: then its own line is the better answer.
-        let own = toml::from_str::<CaseFile>(&self.text).err();
+        let own = toml::from_str::<F>(&self.text).err();
         if let Some(own) = own.filter(|own| !self.quick && own.message() == error.message()) {
             return self.syntax(&own);
+        }
+        // Too long a list is noticed only here, where the parser knows the key and not the line.
+        let message = error.to_string();
+        let key = message.split_once("in `").and_then(|(_, rest)| rest.split('`').next());
+        let key = key.map(|key| key.replace('[', ".").replace(']', ""));
+        if let Some(line) = key.and_then(|key| self.line_of_base(&key)) {
+            let (path, help) = (self.path.clone(), help(error.message()));
+            return CaseError::Syntax { path, line: Some(line), message: plain(&message), help };
         }
         let settings = self.settings.iter().map(|(k, v)| format!("--set {k}={v}"));
         let quick = self.has_quick().then(|| "[quick]".to_owned());
@@ -192,8 +237,9 @@ fn set(table: &mut Table, key: &str, value: Value) -> Result<(), CaseError> {
 fn plain(message: &str) -> String {
     let mut text = message.trim_end().replace("expected f64", "expected a number");
     text = text.replace("expected usize", "expected a whole number");
-    for section in ["Piston", "Time", "Mesh", "Grid", "Record", "Transfer", "Pod", "Rom"] {
-        text = text.replace(&format!("struct {section}Section"), "a table of keys");
+    while let Some((before, rest)) = text.split_once("struct ") {
+        let end = rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(rest.len());
+        text = format!("{before}a table of keys{}", &rest[end..]);
     }
     text
 }
@@ -204,8 +250,8 @@ fn help(message: &str) -> String {
     match quoted.split_first() {
         Some((found, known)) if message.starts_with("unknown") => match nearest(found, known) {
             Some(word) => format!("did you mean `{word}`?"),
-            None => "see `lumley cases piston` for every key".into(),
+            None => "take one of those that are named there".into(),
         },
-        _ => "see `lumley cases piston` for a case file that works".into(),
+        _ => "`lumley cases` lists case files that work; `lumley cases NAME` prints one".into(),
     }
 }

@@ -1,3 +1,7 @@
+use crate::format::FormatError;
+use lumley_fem::MeshError;
+use lumley_fem::generate::GenerateError;
+use lumley_fom::motion::MotionError;
 use std::fmt;
 use std::path::PathBuf;
 
@@ -82,6 +86,68 @@ pub enum CaseError {
     Setting {
         /// What was given.
         text: String,
+    },
+    /// Neither or both of the sections that say what is computed.
+    #[error("{}: {found} of [piston] and [flow]\n  help: a case has exactly one of them; `lumley cases piston` and `lumley cases cavity` print one of each", path.display())]
+    Kind {
+        /// The case file.
+        path: PathBuf,
+        /// How many of them there are.
+        found: &'static str,
+    },
+    /// A case of one kind where another is needed.
+    #[error("the case {name} is one of a {found}; this needs one of a {needed}")]
+    OtherKind {
+        /// Name of the case.
+        name: String,
+        /// What it is a case of.
+        found: &'static str,
+        /// What is needed.
+        needed: &'static str,
+    },
+    /// A key that must be there is not.
+    #[error("{place}: {key} is missing: expected {expected}")]
+    Missing {
+        /// Where it should stand.
+        place: Place,
+        /// The key, with its tables.
+        key: String,
+        /// What was expected, and what to do.
+        expected: String,
+    },
+    /// No mesh can be made.
+    #[error("{place}: {source}")]
+    Generate {
+        /// The section.
+        place: Place,
+        /// Why.
+        source: Box<GenerateError>,
+    },
+    /// A mesh that was made or read cannot be computed with.
+    #[error("{place}: {source}")]
+    Mesh {
+        /// The section.
+        place: Place,
+        /// Why.
+        source: Box<MeshError>,
+    },
+    /// A mesh file cannot be read.
+    #[error(
+        "{place}: mesh.file: {source}\n  help: name a .msh file of gmsh, relative to the case file"
+    )]
+    MeshFile {
+        /// Where the file is named.
+        place: Place,
+        /// Why.
+        source: Box<FormatError>,
+    },
+    /// The mesh cannot move so.
+    #[error("{place}: {source}")]
+    Motion {
+        /// The section.
+        place: Place,
+        /// Why.
+        source: Box<MotionError>,
     },
     /// A value that no computation can use.
     #[error("{place}: {key} = {value}: expected {expected}")]

@@ -1,27 +1,37 @@
 //! Case files: TOML, strict, every error with the place and what to do.
 //!
-//! What was written ([`CaseFile`]) becomes what is meant ([`Case`]); only the second is computed with.
+//! What was written ([`PistonFile`], [`FlowFile`]) becomes what is meant ([`PistonCase`], [`FlowCase`]); only
+//! the second is computed with.
 
-mod check;
+mod ask;
 mod document;
 mod error;
-mod raw;
+mod flow;
+pub mod formula;
+mod piston;
 mod schedule;
+mod sections;
 mod suggest;
+mod term;
 
 pub use error::{CaseError, Place};
-pub use raw::{
-    CaseFile, FlowSection, GridSection, MeshSection, PistonSection, PodSection, RecordSection,
-    RomSection, TimeSection, TransferMethod, TransferSection,
+pub use flow::{
+    BoundaryKind, BoundarySection, FlowCase, FlowFile, FlowSection, GridSection, InitialSection,
+    InputFile, Instants, Kept, March, MeshSection, MotionChoice, MotionSection, MovingChoice,
+    MovingSection, OutputSection, PressureDifferenceSection, Probe, ProbeSection, ProfileShape,
+    RampShape, RecordChoice, RecordSection, Reference, ReferenceSection, Start, SteadySection,
+    TimeChoice, TimeSection,
+};
+pub use piston::{
+    InitialFlowSection, LineGridSection, LineMeshSection, PistonCase, PistonFile,
+    PistonRecordSection, PistonSection, PistonTimeSection, RomSection,
 };
 pub use schedule::Schedule;
+pub use sections::{PodSection, TransferMethod, TransferSection};
+pub use term::Term;
 
-use document::Document;
-use lumley_fem::UniformGrid;
-use lumley_fem::transfer::Transfer;
-use lumley_fom::{PistonParameters, TimeScheme};
+use document::{Document, Kind};
 use lumley_pod::Truncation;
-use lumley_rom::{Integrator, ModelChoice};
 use std::path::{Path, PathBuf};
 
 /// Largest case file that is read, in bytes.
@@ -33,41 +43,16 @@ const LARGEST_FILE: u64 = 1 << 20;
 /// use lumley::case::Case;
 /// let text = lumley::cases::find("piston").expect("a case of lumley's own").text;
 /// let case = Case::parse("piston/case.toml".as_ref(), text, false, &["piston.mass=0.6".into()])?;
-/// assert_eq!(case.name, "piston");
-/// assert_eq!(case.piston.joint.mass, 0.6);
-/// assert_eq!(case.schedule.snapshots(), 201);
+/// assert_eq!(case.name(), "piston");
+/// assert_eq!(case.piston()?.piston.joint.mass, 0.6);
 /// # Ok::<(), lumley::case::CaseError>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Case {
-    /// Name of the runs: the folder of a `case.toml`, the stem of any other file.
-    pub name: String,
-    /// The flow and the body.
-    pub piston: PistonParameters,
-    /// Time scheme of the full-order model.
-    pub scheme: TimeScheme,
-    /// Cells of the fluid's mesh.
-    pub cells: usize,
-    /// Degree of its finite elements.
-    pub degree: usize,
-    /// Steps and snapshots of the full-order model.
-    pub schedule: Schedule,
-    /// The fixed grid on (0, L).
-    pub grid: UniformGrid,
-    /// How the moving mesh's field comes to the grid.
-    pub transfer: Transfer,
-    /// The paper's way there, measured beside it.
-    pub inverse_distance: Transfer,
-    /// The decomposition.
-    pub pod: PodChoice,
-    /// Step of the reduced models, in s, and how many make an interval of the record.
-    pub rom_schedule: Schedule,
-    /// How the reduced equations are integrated.
-    pub integrator: Integrator,
-    /// The reduced models.
-    pub models: Vec<ModelChoice>,
-    /// The file, resolved: all defaults and overrides in it.
-    pub file: CaseFile,
+pub enum Case {
+    /// The section `[piston]`: the paper's section 4, in one dimension.
+    Piston(Box<PistonCase>),
+    /// The section `[flow]`: in the plane.
+    Flow(Box<FlowCase>),
 }
 
 /// What the case asks of POD.
@@ -117,16 +102,38 @@ impl Case {
         settings: &[String],
     ) -> Result<Self, CaseError> {
         let document = Document::new(path, text.to_owned(), quick, settings)?;
-        let file = document.case_file()?;
-        check::check(&document, file, &name(path), &folder(path))
+        let (name, folder) = (name(path), folder(path));
+        Ok(match document.kind()? {
+            Kind::Piston => {
+                let case = piston::check(&document, document.case_file()?, &name, &folder)?;
+                Self::Piston(Box::new(case))
+            }
+            Kind::Flow => {
+                let case = flow::check(&document, document.case_file()?, &name, &folder)?;
+                Self::Flow(Box::new(case))
+            }
+        })
     }
 
-    /// The case as a file that gives it again, all defaults and overrides written out.
+    /// Name of the runs: the folder of a `case.toml`, the stem of any other file.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Piston(case) => &case.name,
+            Self::Flow(case) => &case.name,
+        }
+    }
+
+    /// The piston's case.
     ///
-    /// # Panics
-    /// Never: every checked case is a TOML document.
-    pub fn to_toml(&self) -> String {
-        toml::to_string(&self.file).expect("a checked case is plain TOML")
+    /// # Errors
+    /// [`CaseError::OtherKind`]
+    pub fn piston(self) -> Result<PistonCase, CaseError> {
+        match self {
+            Self::Piston(case) => Ok(*case),
+            Self::Flow(case) => {
+                Err(CaseError::OtherKind { name: case.name, found: "flow", needed: "piston" })
+            }
+        }
     }
 }
 

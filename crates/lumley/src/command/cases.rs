@@ -12,8 +12,9 @@ pub(super) struct Arguments {
 impl Arguments {
     pub(super) fn execute(&self) -> Result<(), Error> {
         let Some(name) = &self.name else {
+            let width = CASES.iter().map(|case| case.name.len()).max().unwrap_or_default();
             for case in CASES {
-                say(&format!("{:<12} {}", case.name, case.about))?;
+                say(&format!("{:<width$}  {}", case.name, case.about))?;
             }
             return Ok(());
         };

@@ -26,7 +26,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
-        let case = self.case.load()?;
+        let case = self.case.load()?.piston()?;
         let named = self.output.directory.clone();
         let target = named.unwrap_or_else(|| default_target(&case.name, self.resume));
         let mut task = Task::new(&target, self.output.existing(self.resume));

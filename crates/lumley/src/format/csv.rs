@@ -9,14 +9,14 @@ use std::path::Path;
 /// Longest table that is read, in bytes.
 const LIMIT: u64 = 1 << 26;
 
-/// Reads a table of two columns, say x in m and u in m/s.
+/// Reads a table of a first column and N others, say t in s, u and v in m/s.
 ///
 /// Empty lines and what follows `#` are skipped; one header line may come first, told by a first column
 /// that is not a number. The first column must increase.
 ///
 /// # Errors
 /// [`FormatError`], naming the file, the line and its text.
-pub fn read_pairs(path: &Path) -> Result<Vec<(f64, f64)>, FormatError> {
+pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<(f64, [f64; N])>, FormatError> {
     let text = read_text(path)?;
     let wrong = |line: usize, text: &str, expected| FormatError::Line {
         path: path.to_owned(),
@@ -24,7 +24,7 @@ pub fn read_pairs(path: &Path) -> Result<Vec<(f64, f64)>, FormatError> {
         text: text.chars().take(60).collect(),
         expected,
     };
-    let mut pairs: Vec<(f64, f64)> = Vec::new();
+    let mut rows: Vec<(f64, [f64; N])> = Vec::new();
     let mut header_allowed = true;
     for (number, line) in (1..).zip(text.lines()) {
         let content = line.split('#').next().unwrap_or_default().trim();
@@ -33,17 +33,16 @@ pub fn read_pairs(path: &Path) -> Result<Vec<(f64, f64)>, FormatError> {
         if content.is_empty() || is_header {
             continue;
         }
-        let (x, u) = pair(content)
-            .ok_or_else(|| wrong(number, line, "two finite numbers separated by a comma"))?;
-        if pairs.last().is_some_and(|&(previous, _)| x <= previous) {
+        let (x, values) = row(content).ok_or_else(|| wrong(number, line, numbers(N + 1)))?;
+        if rows.last().is_some_and(|&(previous, _)| x <= previous) {
             return Err(wrong(number, line, "a first column that increases from line to line"));
         }
-        pairs.push((x, u));
+        rows.push((x, values));
     }
-    if pairs.is_empty() {
-        return Err(wrong(text.lines().count().max(1), "", "at least one pair of numbers"));
+    if rows.is_empty() {
+        return Err(wrong(text.lines().count().max(1), "", "at least one line of numbers"));
     }
-    Ok(pairs)
+    Ok(rows)
 }
 
 /// Writes columns of equal length under their headers; numbers are read back bit for bit.
@@ -94,15 +93,30 @@ fn is_header(line: &str) -> bool {
     first.starts_with(|c: char| c.is_alphabetic() || c == '"') && first.parse::<f64>().is_err()
 }
 
-fn pair(line: &str) -> Option<(f64, f64)> {
-    let (x, u) = line.split_once(',')?;
-    let number = |text: &str| text.trim().parse().ok().filter(|value: &f64| value.is_finite());
-    Some((number(x)?, number(u)?))
+fn numbers(count: usize) -> &'static str {
+    match count {
+        2 => "two finite numbers separated by a comma",
+        3 => "three finite numbers separated by commas",
+        4 => "four finite numbers separated by commas",
+        _ => "as many finite numbers as there are columns, separated by commas",
+    }
+}
+
+/// The numbers of a line, if they are as many as there should be and all finite.
+fn row<const N: usize>(line: &str) -> Option<(f64, [f64; N])> {
+    let mut cells = line.split(',');
+    let mut next = || cells.next()?.trim().parse().ok().filter(|value: &f64| value.is_finite());
+    let first = next()?;
+    let mut values = [0.0; N];
+    for value in &mut values {
+        *value = next()?;
+    }
+    cells.next().is_none().then_some((first, values))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{read_pairs, write_columns};
+    use super::{read_rows, write_columns};
     use crate::format::FormatError;
 
     type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -112,7 +126,7 @@ mod tests {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("u.csv");
         std::fs::write(&path, "# flow\n\nx [m], u\r\n 0, -1.5e-3 # wall\n0.5 ,2\n")?;
-        assert_eq!(read_pairs(&path)?, [(0.0, -1.5e-3), (0.5, 2.0)]);
+        assert_eq!(read_rows(&path)?, [(0.0, [-1.5e-3]), (0.5, [2.0])]);
         Ok(())
     }
 
@@ -132,11 +146,11 @@ mod tests {
             ("", 1),
         ] {
             std::fs::write(&path, text)?;
-            let error = read_pairs(&path).expect_err(text);
+            let error = read_rows::<1>(&path).expect_err(text);
             assert!(matches!(error, FormatError::Line { line, .. } if line == wrong), "{error}");
         }
         std::fs::write(&path, b"0,\xFF\n")?;
-        assert!(matches!(read_pairs(&path), Err(FormatError::Io { .. })));
+        assert!(matches!(read_rows::<1>(&path), Err(FormatError::Io { .. })));
         Ok(())
     }
 
@@ -146,9 +160,9 @@ mod tests {
         let path = folder.path().join("x.csv");
         let (x, u) = ([0.1, 0.1 + 0.2], [-0.0, f64::MIN_POSITIVE]);
         write_columns(&path, &[("x", &x), ("u", &u)])?;
-        let read = read_pairs(&path)?;
-        let bits = |(x, u): (f64, f64)| [x.to_bits(), u.to_bits()];
-        let written = x.into_iter().zip(u).map(bits).collect::<Vec<_>>();
+        let read = read_rows(&path)?;
+        let bits = |(x, [u]): (f64, [f64; 1])| [x.to_bits(), u.to_bits()];
+        let written = x.into_iter().zip(u.map(|u| [u])).map(bits).collect::<Vec<_>>();
         assert_eq!(read.into_iter().map(bits).collect::<Vec<_>>(), written);
         Ok(())
     }

@@ -13,9 +13,9 @@ use std::io::{self, Read, Write};
 ///
 /// ```
 /// use lumley::model::{Frame, Model};
-/// use lumley::case::Case;
+/// use lumley::case::PistonCase;
 /// let text = lumley::cases::find("piston").expect("a case of lumley's own").text;
-/// let case = Case::parse("piston/case.toml".as_ref(), text, true, &[])?;
+/// let case = PistonCase::parse("piston/case.toml".as_ref(), text, true, &[])?;
 /// let mut model = lumley::run::full_order(&case)?;
 /// model.step(case.schedule.step)?;
 /// let frame = Frame::Fixed { grid: case.grid.clone(), transfer: case.transfer };

@@ -2,7 +2,7 @@ use super::ground::Ground;
 use super::simulate::full_order;
 use super::{Work, advance};
 use crate::Error;
-use crate::case::{Case, Schedule};
+use crate::case::{PistonCase, Schedule};
 use crate::model::Model;
 use crate::progress::Progress;
 use crate::summary::{Reduced, Speedup, Variant};
@@ -33,7 +33,7 @@ pub(super) fn variants(
         if best(&variants) <= strictest || strictest.is_infinite() {
             break;
         }
-        let model = full_order(&Case { cells, ..ground.case.clone() })?;
+        let model = full_order(&PistonCase { cells, ..ground.case.clone() })?;
         let variant = measure(ground, model, cells, &with_steps(&ground.case.schedule, steps))?;
         variants.extend(variant.filter(|v| v.res_percent < best(&variants)));
     }
@@ -91,7 +91,7 @@ fn own(ground: &Ground, work: &Work) -> Variant {
 
 /// Numbers of cells and of steps per snapshot, halved again and again, cheapest first, without the run's
 /// own.
-fn coarser(case: &Case) -> Vec<(usize, usize)> {
+fn coarser(case: &PistonCase) -> Vec<(usize, usize)> {
     let cells = halves(case.cells).filter(|cells| *cells >= 4);
     let steps = || halves(case.schedule.steps_per_snapshot);
     let mut sizes: Vec<_> = cells.flat_map(|c| steps().map(move |s| (c, s))).collect();

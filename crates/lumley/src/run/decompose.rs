@@ -1,7 +1,7 @@
 use super::basis::BasisFile;
 use super::ground::{grid_product, is_mapped};
 use crate::Error;
-use crate::case::{Case, PodChoice};
+use crate::case::{PistonCase, PodChoice};
 use crate::directory::Workplace;
 use crate::record::{FrameReader, Record};
 use crate::summary::Decomposition;
@@ -132,7 +132,7 @@ pub(super) struct Decompositions {
 
 /// POD of the record's frames; the bases are written to `basis/`.
 pub(super) fn decompose(
-    case: &Case,
+    case: &PistonCase,
     record: &Record,
     place: &Workplace,
     threads: usize,
@@ -165,7 +165,7 @@ pub(super) fn whole(frame: &FrameReader) -> Result<Mat<f64>, Error> {
 /// POD of u - X' xi in L2(0, 1). It vanishes at both ends, and so do the modes, to the last bit: the end
 /// nodes are no unknowns.
 fn reference(
-    case: &Case,
+    case: &PistonCase,
     record: &Record,
     path: &Path,
     threads: usize,

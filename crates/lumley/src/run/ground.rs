@@ -2,7 +2,7 @@ use super::basis::BasisFile;
 use super::compare::{Comparison, Snapshots};
 use super::simulate::{fixed, full_order};
 use crate::Error;
-use crate::case::Case;
+use crate::case::PistonCase;
 use crate::model::{Frame, Model};
 use faer::{Mat, MatRef};
 use lumley_fem::UniformGrid;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Everything the reduced models of a case stand on.
 pub(super) struct Ground<'a> {
-    pub case: &'a Case,
+    pub case: &'a PistonCase,
     /// Modes on the fixed grid.
     fixed: BasisFile,
     /// Modes in the reference frame, where a model needs them.
@@ -37,7 +37,7 @@ pub(super) fn is_mapped(choice: &ModelChoice) -> bool {
 impl<'a> Ground<'a> {
     /// Takes the bases from `folder`/basis.
     pub(super) fn new(
-        case: &'a Case,
+        case: &'a PistonCase,
         folder: &Path,
         full: Option<Mat<f64>>,
         shown: usize,

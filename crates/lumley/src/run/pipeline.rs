@@ -4,7 +4,7 @@ use super::reduce::reduce;
 use super::simulate::{full_order, simulate};
 use super::{Work, checkpoint, cost, probes, report, transfer};
 use crate::Error;
-use crate::case::{Case, FlowSection};
+use crate::case::{InitialFlowSection, PistonCase};
 use crate::directory::{Existing, Workplace};
 use crate::manifest::{Input, MANIFEST, Manifest};
 use crate::progress::Progress;
@@ -62,7 +62,11 @@ impl Task {
 ///
 /// # Errors
 /// Whatever ends it; what was done so far stays in `TARGET.partial`.
-pub fn run(case: &Case, task: &Task, progress: &mut Progress) -> Result<(PathBuf, Summary), Error> {
+pub fn run(
+    case: &PistonCase,
+    task: &Task,
+    progress: &mut Progress,
+) -> Result<(PathBuf, Summary), Error> {
     // What the models do not accept is said before anything is written.
     full_order(case)?;
     let place = Workplace::claim(&task.target, task.existing)?;
@@ -86,7 +90,7 @@ pub fn run(case: &Case, task: &Task, progress: &mut Progress) -> Result<(PathBuf
 }
 
 /// Writes what the run is, or checks that it goes on with the same.
-pub(super) fn begin(case: &Case, task: &Task, place: &Workplace) -> Result<Manifest, Error> {
+pub(super) fn begin(case: &PistonCase, task: &Task, place: &Workplace) -> Result<Manifest, Error> {
     let (resolved, table) = resolved(case);
     let same = |name: &str, text: &str| {
         fs::read_to_string(place.path().join(name)).is_ok_and(|begun| begun == text)
@@ -110,10 +114,10 @@ pub(super) fn begin(case: &Case, task: &Task, place: &Workplace) -> Result<Manif
 }
 
 /// The case as the run directory keeps it, and the table of its initial flow, if it has one.
-fn resolved(case: &Case) -> (String, Option<String>) {
+fn resolved(case: &PistonCase) -> (String, Option<String>) {
     let InitialFlow::Table(rows) = &case.piston.initial_flow else { return (case.to_toml(), None) };
     let mut case = case.clone();
-    case.file.piston.initial_flow = FlowSection::Table(INITIAL_FLOW.into());
+    case.file.piston.initial_flow = InitialFlowSection::Table(INITIAL_FLOW.into());
     let rows = rows.iter().map(|(x, u)| format!("{x:?},{u:?}\n"));
     (case.to_toml(), Some(std::iter::once("x,u\n".to_owned()).chain(rows).collect()))
 }

@@ -1,6 +1,6 @@
 use super::Work;
 use crate::Error;
-use crate::case::Case;
+use crate::case::PistonCase;
 use crate::model::{Frame, Model, Observer};
 use crate::record::{
     Description, FrameDescription, Quantity, RecordWriter, SeriesDescription, Snapshot, Support,
@@ -59,7 +59,7 @@ pub struct Plan<M> {
 }
 
 impl<M: Model> Plan<M> {
-    fn description(&self, case: &Case) -> Description {
+    fn description(&self, case: &PistonCase) -> Description {
         let frame = |(frame, support): &(Frame, Support)| FrameDescription {
             name: frame.name().into(),
             support: support.clone(),
@@ -88,7 +88,7 @@ impl<M: Model> Recorder<M> {
     ///
     /// # Errors
     /// The failure of the disk.
-    pub fn create(folder: &Path, case: &Case, plan: Plan<M>) -> Result<Self, Error> {
+    pub fn create(folder: &Path, case: &PistonCase, plan: Plan<M>) -> Result<Self, Error> {
         let writer = RecordWriter::create(folder, &plan.description(case))?;
         Ok(Self::new(writer, plan))
     }

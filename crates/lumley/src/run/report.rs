@@ -2,7 +2,7 @@ use super::basis::BasisFile;
 use super::decompose::whole;
 use super::pipeline::CASE;
 use crate::Error;
-use crate::case::{Case, FlowSection};
+use crate::case::{InitialFlowSection, PistonCase};
 use crate::directory::{self, DirectoryError};
 use crate::format::npz::NpzReader;
 use crate::manifest::{MANIFEST, Manifest};
@@ -43,7 +43,7 @@ pub(super) fn save(folder: &Path, report: &Report) -> Result<(), Error> {
 fn piston(folder: &Path) -> Result<PistonReport, Error> {
     check_is_of_a_case(folder)?;
     let (manifest, summary) = read_summary(folder)?;
-    let case = Case::load(&folder.join(CASE), false, &[])?;
+    let case = PistonCase::load(&folder.join(CASE), false, &[])?;
     let record = folder.join("record");
     let record = if record.exists() { Some(Record::open(record)?) } else { None };
     let own_basis = summary.basis.is_none();
@@ -98,13 +98,13 @@ fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
         .map_err(|e| Error::Damaged { path: path.to_owned(), message: e.to_string() })
 }
 
-fn parameters(case: &Case) -> Parameters {
+fn parameters(case: &PistonCase) -> Parameters {
     let p = &case.file.piston;
     let initial_flow = match &p.initial_flow {
-        FlowSection::Zero => "at rest".to_owned(),
-        FlowSection::Linear => "X'(0) x/X(0)".to_owned(),
-        FlowSection::Sine(amplitude) => format!("linear and {amplitude} m/s sin(pi x/X(0))"),
-        FlowSection::Table(name) => format!("the table {name}"),
+        InitialFlowSection::Zero => "at rest".to_owned(),
+        InitialFlowSection::Linear => "X'(0) x/X(0)".to_owned(),
+        InitialFlowSection::Sine(amplitude) => format!("linear and {amplitude} m/s sin(pi x/X(0))"),
+        InitialFlowSection::Table(name) => format!("the table {name}"),
     };
     let scheme =
         toml::Value::try_from(case.scheme).map_or_else(|_| String::new(), |v| v.to_string());
@@ -144,7 +144,7 @@ fn trajectory(record: &Record) -> Result<Trajectory, Error> {
     })
 }
 
-fn reduced(folder: &Path, case: &Case, model: &Reduced) -> Result<RomResults, Error> {
+fn reduced(folder: &Path, case: &PistonCase, model: &Reduced) -> Result<RomResults, Error> {
     let record = Record::open(folder.join("rom").join(&model.label).join("record"))?;
     let shown = model.shown.unwrap_or_default();
     let run = |k: usize| RomRun {
@@ -182,7 +182,7 @@ fn variant(variant: &summary::Variant) -> Variant {
     Variant { size, step, steps, step_us, error_percent: res_percent }
 }
 
-fn transfer(case: &Case, summary: &Summary) -> Vec<TransferError> {
+fn transfer(case: &PistonCase, summary: &Summary) -> Vec<TransferError> {
     let Some(errors) = summary.transfer else { return Vec::new() };
     let section = &case.file.transfer;
     let (power, neighbours) = (section.power, section.neighbours);

@@ -5,7 +5,7 @@ use super::pipeline::{CASE, Task, begin, finish, full_order_cost, reduced_models
 use super::simulate::{full_order, simulate};
 use super::{probes, report};
 use crate::Error;
-use crate::case::{Case, CaseFile, PodSection};
+use crate::case::{PistonCase, PistonFile, PodSection};
 use crate::directory::{DirectoryError, Workplace};
 use crate::progress::Progress;
 use crate::record::Record;
@@ -33,7 +33,8 @@ pub fn rerun(
     }
     report::check_is_of_a_case(source)?;
     let path = source.join(CASE);
-    let (before, mut case) = (Case::load(&path, false, &[])?, Case::load(&path, false, settings)?);
+    let (before, mut case) =
+        (PistonCase::load(&path, false, &[])?, PistonCase::load(&path, false, settings)?);
     check_basis_fits(source, &before, &case)?;
     let (made_by, old) = report::read_summary(source)?;
     case.name = made_by.case;
@@ -79,12 +80,12 @@ pub fn rerun(
 }
 
 /// Whether both cases have the same solution at the same times, as far as both go.
-fn is_same_flow(before: &Case, case: &Case) -> bool {
+fn is_same_flow(before: &PistonCase, case: &PistonCase) -> bool {
     before.piston == case.piston && before.schedule.interval == case.schedule.interval
 }
 
 /// Over which time the models are compared, where that is not the whole of it.
-fn window(case: &Case, ground: &Ground) -> Option<String> {
+fn window(case: &PistonCase, ground: &Ground) -> Option<String> {
     let compared = ground.full.as_ref()?.velocities.ncols();
     let end = case.schedule.time(compared - 1);
     let all = compared == case.schedule.snapshots();
@@ -92,12 +93,12 @@ fn window(case: &Case, ground: &Ground) -> Option<String> {
 }
 
 /// A basis belongs to its mesh, its grid, its domain and its decomposition.
-fn check_basis_fits(source: &Path, before: &Case, case: &Case) -> Result<(), Error> {
+fn check_basis_fits(source: &Path, before: &PistonCase, case: &PistonCase) -> Result<(), Error> {
     if case.models.is_empty() {
         return Err(Error::NothingToDo { what: "the case of this run has no rom.models" });
     }
     let (old, new) = (&before.file, &case.file);
-    let pod = |file: &CaseFile| PodSection { modes: None, ..file.pod.clone() };
+    let pod = |file: &PistonFile| PodSection { modes: None, ..file.pod.clone() };
     let changed = [
         ("mesh", old.mesh != new.mesh),
         ("grid", old.grid != new.grid),

@@ -2,7 +2,7 @@ use super::checkpoint::{self, Progressed};
 use super::recorder::{Gauge, Plan, Recorder};
 use super::{Work, advance, transfer};
 use crate::Error;
-use crate::case::Case;
+use crate::case::PistonCase;
 use crate::directory::Workplace;
 use crate::model::{Frame, Model, Observer};
 use crate::progress::Progress;
@@ -17,14 +17,14 @@ const MIDDLE: f64 = 0.5;
 ///
 /// # Errors
 /// What the model does not accept.
-pub fn full_order(case: &Case) -> Result<Piston, Error> {
+pub fn full_order(case: &PistonCase) -> Result<Piston, Error> {
     Ok(Piston::new(&case.piston, case.cells, case.degree, case.scheme)?)
 }
 
 /// Runs the full-order model of `case` into `place`/record, from the checkpoint when there is one, with
 /// checkpoints at least `between` apart.
 pub(super) fn simulate(
-    case: &Case,
+    case: &PistonCase,
     place: &Workplace,
     between: Duration,
     progress: &mut Progress,
@@ -51,7 +51,7 @@ pub(super) fn simulate(
 }
 
 /// What is recorded of the full-order model.
-fn plan(case: &Case, model: &Piston) -> Plan<Piston> {
+fn plan(case: &PistonCase, model: &Piston) -> Plan<Piston> {
     let [position, velocity] = Gauge::of_body();
     let one = |name, unit| vec![Quantity::new(name, unit)];
     let nodes = model.nodes().map(|xi| [xi, 0.0]).collect();
@@ -74,7 +74,7 @@ fn plan(case: &Case, model: &Piston) -> Plan<Piston> {
 }
 
 /// The fixed grid of `case` as a frame.
-pub(super) fn fixed(case: &Case) -> Frame {
+pub(super) fn fixed(case: &PistonCase) -> Frame {
     Frame::Fixed { grid: case.grid.clone(), transfer: case.transfer }
 }
 

@@ -1,5 +1,5 @@
 use super::recorder::Gauge;
-use crate::case::Case;
+use crate::case::PistonCase;
 use crate::model::StepError;
 use crate::record::{Quantity, Series};
 use crate::summary::TransferErrors;
@@ -8,7 +8,7 @@ use lumley_fom::Piston;
 
 /// The gauge of what either way to the fixed grid loses: distances in L2(Omega) between the full-order
 /// velocity and the grid's, and the velocity's norm.
-pub(super) fn errors(case: &Case) -> Gauge<Piston> {
+pub(super) fn errors(case: &PistonCase) -> Gauge<Piston> {
     let (grid, inverse_distance) = (case.grid.clone(), case.inverse_distance);
     let entries = ["finite-element", "inverse-distance", "norm"];
     let entries = entries.map(|name| Quantity::new(name, "m3/2/s")).to_vec();

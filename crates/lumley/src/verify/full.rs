@@ -1,7 +1,7 @@
 use super::Tolerance::{AtMost, Relative};
 use super::{Row, Tolerance, res};
 use crate::Error;
-use crate::case::Case;
+use crate::case::PistonCase;
 use crate::cases;
 use crate::directory::Existing;
 use crate::progress::Progress;
@@ -47,9 +47,9 @@ impl<'a> Bench<'a> {
         &mut self,
         name: &str,
         settings: &[String],
-    ) -> Result<(Case, Summary), Error> {
+    ) -> Result<(PistonCase, Summary), Error> {
         let text = cases::find("piston").map_or("", |case| case.text);
-        let case = Case::parse("piston/case.toml".as_ref(), text, false, settings)?;
+        let case = PistonCase::parse("piston/case.toml".as_ref(), text, false, settings)?;
         let (_, summary) = run::run(&case, &self.task(name), self.progress)?;
         Ok((case, summary))
     }

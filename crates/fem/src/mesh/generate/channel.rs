@@ -160,6 +160,12 @@ pub(super) const SIDES: [&str; 4] = ["left", "right", "bottom", "top"];
 const ROWS: usize = 1000;
 
 impl Channel {
+    /// A channel between these sides, in m, with cells of this size and no bodies.
+    pub fn new(x: [f64; 2], y: [f64; 2], size: f64) -> Self {
+        let (growth, limit) = (growth(), limit());
+        Self { x, y, size, growth, triangles: None, bodies: vec![], limit }
+    }
+
     /// Whether every quantity by itself is in its range.
     pub(super) fn check(&self) -> Result<(), GenerateError> {
         interval("x", self.x)?;

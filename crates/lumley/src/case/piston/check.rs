@@ -1,14 +1,14 @@
-use super::document::Document;
-use super::raw::{CaseFile, FlowSection, PodSection, TransferMethod};
-use super::{Case, CaseError, PodChoice, Schedule};
+//! From what a piston's case file says to what it means.
+
+use super::PistonCase;
+use super::raw::{InitialFlowSection, PistonFile};
+use crate::case::ask::{Ask, Number, Transfers};
+use crate::case::{CaseError, Document, Schedule};
 use crate::format::csv;
 use lumley_body::joint::Prismatic;
 use lumley_fem::UniformGrid;
-use lumley_fem::transfer::Transfer;
 use lumley_fom::{InitialFlow, PistonParameters};
-use lumley_pod::{ALGORITHMS, Truncation};
 use lumley_rom::ReducedError;
-use std::fmt::{self, Display};
 use std::path::Path;
 
 /// Most snapshots, and most steps between two.
@@ -17,20 +17,21 @@ const MOST: f64 = 1e9;
 const MOST_CELLS: usize = 1_000_000;
 
 /// Turns what was written into what is meant.
-pub(super) fn check(
+pub(in crate::case) fn check(
     document: &Document,
-    file: CaseFile,
+    file: PistonFile,
     name: &str,
     folder: &Path,
-) -> Result<Case, CaseError> {
+) -> Result<PistonCase, CaseError> {
     let ask = Ask(document);
     let piston = piston(&ask, &file, folder)?;
     let rom_schedule = schedule(&ask, &file, "rom.step", file.rom.step)?;
     let schedule = schedule(&ask, &file, "time.step", file.time.step)?;
     sizes(&ask, &file, &schedule)?;
-    let inverse_distance = inverse_distance(&ask, &file)?;
+    let nodes = file.mesh.cells.saturating_mul(file.mesh.degree).saturating_add(1);
+    let Transfers { chosen: transfer, inverse_distance } = ask.transfer(&file.transfer, nodes)?;
     models(&ask, &file)?;
-    Ok(Case {
+    Ok(PistonCase {
         name: name.to_owned(),
         piston,
         scheme: file.time.scheme,
@@ -38,12 +39,9 @@ pub(super) fn check(
         degree: file.mesh.degree,
         schedule,
         grid: UniformGrid::line(0.0, file.piston.domain_length, file.grid.nodes),
-        transfer: match file.transfer.method {
-            TransferMethod::FiniteElement => Transfer::FiniteElement {},
-            TransferMethod::InverseDistance => inverse_distance,
-        },
+        transfer,
         inverse_distance,
-        pod: pod(&ask, &file.pod)?,
+        pod: ask.pod(&file.pod)?,
         rom_schedule,
         integrator: file.rom.integrator,
         models: file.rom.models.clone(),
@@ -51,54 +49,7 @@ pub(super) fn check(
     })
 }
 
-/// Questions to the document, so that a wrong value is refused with its place.
-struct Ask<'a>(&'a Document);
-
-impl Ask<'_> {
-    fn refuse(&self, key: &str, value: impl Display, expected: &str) -> CaseError {
-        CaseError::Value {
-            place: self.0.place(key),
-            key: key.to_owned(),
-            value: value.to_string(),
-            expected: expected.to_owned(),
-        }
-    }
-
-    fn that(
-        &self,
-        ok: bool,
-        key: &str,
-        value: impl Display,
-        expected: &str,
-    ) -> Result<(), CaseError> {
-        if ok { Ok(()) } else { Err(self.refuse(key, value, expected)) }
-    }
-
-    fn positive(&self, key: &str, value: f64, unit: &str) -> Result<(), CaseError> {
-        let expected = format!("a positive, finite number in {unit}");
-        self.that(value.is_finite() && value > 0.0, key, Number(value), &expected)
-    }
-
-    fn not_negative(&self, key: &str, value: f64, unit: &str) -> Result<(), CaseError> {
-        let expected = format!("zero or a positive, finite number in {unit}");
-        self.that(value.is_finite() && value >= 0.0, key, Number(value), &expected)
-    }
-
-    fn finite(&self, key: &str, value: f64, unit: &str) -> Result<(), CaseError> {
-        self.that(value.is_finite(), key, Number(value), &format!("a finite number in {unit}"))
-    }
-}
-
-/// A number in its shortest form: 1e300, not three hundred digits.
-struct Number(f64);
-
-impl Display for Number {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?}", self.0)
-    }
-}
-
-fn piston(ask: &Ask, file: &CaseFile, folder: &Path) -> Result<PistonParameters, CaseError> {
+fn piston(ask: &Ask, file: &PistonFile, folder: &Path) -> Result<PistonParameters, CaseError> {
     let p = &file.piston;
     ask.positive("piston.viscosity", p.viscosity, "m²/s")?;
     ask.positive("piston.mass", p.mass, "kg")?;
@@ -127,23 +78,28 @@ fn piston(ask: &Ask, file: &CaseFile, folder: &Path) -> Result<PistonParameters,
     })
 }
 
-fn initial_flow(ask: &Ask, flow: &FlowSection, folder: &Path) -> Result<InitialFlow, CaseError> {
+fn initial_flow(
+    ask: &Ask,
+    flow: &InitialFlowSection,
+    folder: &Path,
+) -> Result<InitialFlow, CaseError> {
     let key = "piston.initial_flow";
     Ok(match flow {
-        FlowSection::Zero => InitialFlow::Zero,
-        FlowSection::Linear => InitialFlow::Linear,
-        FlowSection::Sine(amplitude) => {
+        InitialFlowSection::Zero => InitialFlow::Zero,
+        InitialFlowSection::Linear => InitialFlow::Linear,
+        InitialFlowSection::Sine(amplitude) => {
             ask.finite(key, *amplitude, "m/s")?;
             InitialFlow::Sine(*amplitude)
         }
-        FlowSection::Table(name) => {
-            let rows = csv::read_pairs(&folder.join(name));
-            InitialFlow::Table(rows.map_err(|e| ask.refuse(key, name, &format!("a table: {e}")))?)
+        InitialFlowSection::Table(name) => {
+            let rows = csv::read_rows(&folder.join(name));
+            let rows = rows.map_err(|e| ask.refuse(key, name, &format!("a table: {e}")))?;
+            InitialFlow::Table(rows.into_iter().map(|(x, [u])| (x, u)).collect())
         }
     })
 }
 
-fn schedule(ask: &Ask, file: &CaseFile, key: &str, step: f64) -> Result<Schedule, CaseError> {
+fn schedule(ask: &Ask, file: &PistonFile, key: &str, step: f64) -> Result<Schedule, CaseError> {
     let (end, interval) = (file.time.end, file.record.interval);
     ask.positive("record.interval", interval, "s")?;
     ask.positive("time.end", end, "s")?;
@@ -165,7 +121,7 @@ fn schedule(ask: &Ask, file: &CaseFile, key: &str, step: f64) -> Result<Schedule
     })
 }
 
-fn models(ask: &Ask, file: &CaseFile) -> Result<(), CaseError> {
+fn models(ask: &Ask, file: &PistonFile) -> Result<(), CaseError> {
     let integrator = file.rom.integrator.validate();
     integrator.map_err(|e| ask.refuse("rom.integrator", "out of range", &e.to_string()))?;
     for (k, model) in file.rom.models.iter().enumerate() {
@@ -182,7 +138,7 @@ fn models(ask: &Ask, file: &CaseFile) -> Result<(), CaseError> {
     Ok(())
 }
 
-fn sizes(ask: &Ask, file: &CaseFile, schedule: &Schedule) -> Result<(), CaseError> {
+fn sizes(ask: &Ask, file: &PistonFile, schedule: &Schedule) -> Result<(), CaseError> {
     let (cells, degree, nodes) = (file.mesh.cells, file.mesh.degree, file.grid.nodes);
     ask.that((1..=2).contains(&degree), "mesh.degree", degree, "1 or 2")?;
     ask.that(
@@ -199,37 +155,4 @@ fn sizes(ask: &Ask, file: &CaseFile, schedule: &Schedule) -> Result<(), CaseErro
     ask.that(fits(1), "record.interval", Number(schedule.interval), &most)?;
     ask.that(fits(cells.saturating_mul(degree)), "mesh.cells", cells, &most)?;
     ask.that(fits(nodes), "grid.nodes", nodes, &most)
-}
-
-/// The paper's inverse-distance weighting with the parameters of the case.
-fn inverse_distance(ask: &Ask, file: &CaseFile) -> Result<Transfer, CaseError> {
-    let (power, neighbours) = (file.transfer.power, file.transfer.neighbours);
-    let nodes = file.mesh.cells.saturating_mul(file.mesh.degree).saturating_add(1);
-    let number = "a positive, finite number";
-    ask.that(power.is_finite() && power > 0.0, "transfer.power", Number(power), number)?;
-    let expected = format!("at least 1 and at most the mesh's {nodes} nodes");
-    ask.that((1..=nodes).contains(&neighbours), "transfer.neighbours", neighbours, &expected)?;
-    Ok(Transfer::InverseDistance { power, neighbours })
-}
-
-fn pod(ask: &Ask, pod: &PodSection) -> Result<PodChoice, CaseError> {
-    let names: Vec<&str> = ALGORITHMS.iter().map(|algorithm| algorithm.name).collect();
-    let method = pod.method.as_str();
-    ask.that(names.contains(&method), "pod.method", method, &names.join(", "))?;
-    let truncation = match (pod.modes, pod.energy) {
-        (Some(modes), Some(_)) => {
-            return Err(ask.refuse("pod.modes", modes, "either pod.modes or pod.energy, not both"));
-        }
-        (Some(modes), None) => {
-            ask.that(modes >= 1, "pod.modes", modes, "at least 1")?;
-            Truncation::Modes(modes)
-        }
-        (None, energy) => {
-            let share = energy.unwrap_or(0.9999);
-            let expected = "a share of the energy above 0 and at most 1, such as 0.9999";
-            ask.that(share > 0.0 && share <= 1.0, "pod.energy", Number(share), expected)?;
-            Truncation::Energy(share)
-        }
-    };
-    Ok(PodChoice { method: method.to_owned(), truncation, center: pod.center })
 }

@@ -1,5 +1,6 @@
-//! A case file as it is written: keys and types, before anything is checked.
+//! A piston's case file as it is written: keys and types, before anything is checked.
 
+use crate::case::sections::{PodSection, TransferSection};
 use lumley_fom::TimeScheme;
 use lumley_rom::{Integrator, ModelChoice};
 use serde::{Deserialize, Serialize};
@@ -7,23 +8,23 @@ use serde::{Deserialize, Serialize};
 /// The whole file. Without its `[quick]` table, which is an overlay and gone by now.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CaseFile {
+pub struct PistonFile {
     /// One line for people.
     #[serde(default)]
     pub title: String,
     /// The flow and the body.
     pub piston: PistonSection,
     /// Time integration of the full-order model.
-    pub time: TimeSection,
+    pub time: PistonTimeSection,
     /// Mesh of the full-order model.
     #[serde(default)]
-    pub mesh: MeshSection,
+    pub mesh: LineMeshSection,
     /// The fixed grid on which POD is done.
     #[serde(default)]
-    pub grid: GridSection,
+    pub grid: LineGridSection,
     /// When snapshots are taken.
     #[serde(default)]
-    pub record: RecordSection,
+    pub record: PistonRecordSection,
     /// How the moving mesh's field comes to the fixed grid.
     #[serde(default)]
     pub transfer: TransferSection,
@@ -63,7 +64,7 @@ pub struct PistonSection {
     pub initial_velocity: f64,
     /// u(x, 0).
     #[serde(default)]
-    pub initial_flow: FlowSection,
+    pub initial_flow: InitialFlowSection,
     /// Length L of the fixed domain, in m.
     pub domain_length: f64,
 }
@@ -71,7 +72,7 @@ pub struct PistonSection {
 /// `piston.initial_flow`: a word, or a table of one key.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum FlowSection {
+pub enum InitialFlowSection {
     /// At rest.
     #[default]
     Zero,
@@ -86,7 +87,7 @@ pub enum FlowSection {
 /// `[time]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct TimeSection {
+pub struct PistonTimeSection {
     /// End of the run T, in s.
     pub end: f64,
     /// Time step, in s.
@@ -99,14 +100,14 @@ pub struct TimeSection {
 /// `[mesh]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct MeshSection {
+pub struct LineMeshSection {
     /// Cells of the fluid's mesh.
     pub cells: usize,
     /// Degree of the finite elements, 1 or 2.
     pub degree: usize,
 }
 
-impl Default for MeshSection {
+impl Default for LineMeshSection {
     fn default() -> Self {
         Self { cells: 800, degree: 1 }
     }
@@ -115,12 +116,12 @@ impl Default for MeshSection {
 /// `[grid]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct GridSection {
+pub struct LineGridSection {
     /// Nodes of the uniform grid on (0, L), ends included.
     pub nodes: usize,
 }
 
-impl Default for GridSection {
+impl Default for LineGridSection {
     fn default() -> Self {
         Self { nodes: 401 }
     }
@@ -129,65 +130,14 @@ impl Default for GridSection {
 /// `[record]`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct RecordSection {
+pub struct PistonRecordSection {
     /// Time between snapshots, in s; a whole number of time steps.
     pub interval: f64,
 }
 
-impl Default for RecordSection {
+impl Default for PistonRecordSection {
     fn default() -> Self {
         Self { interval: 0.01 }
-    }
-}
-
-/// `[transfer]`. Inverse-distance weighting is measured beside finite-element evaluation in every run, so
-/// its parameters count with either method.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct TransferSection {
-    /// `finite-element`, or `inverse-distance` (the paper's).
-    pub method: TransferMethod,
-    /// Exponent of the inverse distance.
-    pub power: f64,
-    /// Nearest mesh nodes that count.
-    pub neighbours: usize,
-}
-
-impl Default for TransferSection {
-    fn default() -> Self {
-        Self { method: TransferMethod::FiniteElement, power: 2.0, neighbours: 4 }
-    }
-}
-
-/// `transfer.method`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum TransferMethod {
-    /// The finite-element function itself.
-    FiniteElement,
-    /// Weights on the nearest mesh nodes.
-    InverseDistance,
-}
-
-/// `[pod]`. Without `modes` and `energy`: 99.99 % of the energy, as in the paper.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct PodSection {
-    /// `auto`, `snapshots`, `direct` or `svd`.
-    pub method: String,
-    /// Number of modes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub modes: Option<usize>,
-    /// Share of the energy (31), between 0 and 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub energy: Option<f64>,
-    /// Whether the mean is subtracted.
-    pub center: bool,
-}
-
-impl Default for PodSection {
-    fn default() -> Self {
-        Self { method: "auto".into(), modes: None, energy: None, center: false }
     }
 }
 
