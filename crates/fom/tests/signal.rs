@@ -205,3 +205,22 @@ fn wrong_signals_are_refused_with_the_entry() {
     assert!(matches!(error, SignalError::NotFinite { index: 1, .. }), "{error}");
     assert!(matches!(refused(&[f64::INFINITY], &[0.0]), SignalError::NotFinite { index: 0, .. }));
 }
+
+/// A flow that begins with a peak, and sheds vortices later: the peak is not the beginning of a period.
+#[test]
+fn a_peak_at_the_start_is_no_period() -> Result<(), SignalError> {
+    let times: Vec<f64> = (1..=450).map(|k| 0.01 * f64::from(k)).collect();
+    let grows = |t: f64| 1.0 / (1.0 + (-4.0 * (t - 1.5)).exp());
+    let value = |&t: &f64| {
+        grows(t) * (TAU * 3.0 * t).sin() + 2.0 * (-t / 0.02).exp() - 2.0 * (-t / 0.01).exp()
+    };
+    let lift: Vec<f64> = times.iter().map(value).collect();
+    let mut late = lift.clone();
+    late[..5].copy_from_slice(&[-0.6, 0.9, 0.1, 0.1, 0.1]);
+    for signal in [&lift, &late] {
+        let periods = Periods::of(&Signal::new(&times, signal)?);
+        let frequency = periods.frequency().expect("periodic");
+        assert!((frequency - 3.0).abs() < 0.03, "{frequency} Hz");
+    }
+    Ok(())
+}

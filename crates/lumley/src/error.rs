@@ -4,9 +4,13 @@ use crate::format::FormatError;
 use crate::model::StepError;
 use crate::ranks::RanksError;
 use crate::record::RecordError;
+use crate::run::INTERRUPTED;
+use lumley_fem::Point;
 use lumley_fom::PistonError;
+use lumley_fom::flow::FlowError;
 use lumley_pod::{Failure, PodError};
 use lumley_rom::ReducedError;
+use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +44,23 @@ pub enum Error {
     /// A model failed.
     #[error(transparent)]
     Step(#[from] StepError),
+    /// The person or the system wanted the run to stop.
+    #[error("interrupted")]
+    Interrupted,
+    /// A flow is to start from the end of a run whose mesh does not cover it.
+    #[error(transparent)]
+    OtherDomain(#[from] OtherDomain),
+    /// The system does not tell of Ctrl-C.
+    #[error("cannot listen to Ctrl-C: {0}")]
+    Signals(io::Error),
+    /// A run that ended before its time, with what is kept of it.
+    #[error("{source}\n  kept: {kept}")]
+    Stopped {
+        /// Why.
+        source: Box<Error>,
+        /// What there is.
+        kept: Kept,
+    },
     /// The decomposition failed.
     #[error("{}: {source}{}", path.display(), help(source))]
     Pod {
@@ -51,6 +72,9 @@ pub enum Error {
     /// The full-order model does not accept the case.
     #[error(transparent)]
     Piston(#[from] PistonError),
+    /// The flow does not accept the case.
+    #[error(transparent)]
+    Flow(FlowError),
     /// A reduced model cannot be built.
     #[error(transparent)]
     Reduced(#[from] ReducedError),
@@ -132,6 +156,51 @@ pub enum Error {
     },
 }
 
+/// The run that a flow is to start from has no flow at one of its points.
+///
+/// ```
+/// let error = lumley::OtherDomain { path: "runs/coarse".into(), point: [9.0, 0.0] };
+/// assert!(error.to_string().starts_with("runs/coarse has no flow at (9, 0) m"));
+/// ```
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{} has no flow at ({}, {}) m, where the new mesh has a node\n  help: flow.initial names a run on the same domain, with the bodies where they are at the start of this one", path.display(), point[0], point[1])]
+pub struct OtherDomain {
+    /// The run.
+    pub path: PathBuf,
+    /// The point, in m.
+    pub point: Point,
+}
+
+/// What is kept of a run that ended before its time.
+///
+/// ```
+/// use lumley::Kept;
+/// let (path, command) = ("runs/piston.partial".into(), "lumley run piston/case.toml".into());
+/// let kept = Kept { path, checkpoint: Some(1.5), command };
+/// assert!(kept.to_string().ends_with("case.toml --resume` goes on from t = 1.5 s"));
+/// ```
+#[derive(Debug, Clone)]
+pub struct Kept {
+    /// The unfinished run.
+    pub path: PathBuf,
+    /// Simulated time of its last checkpoint, in s.
+    pub checkpoint: Option<f64>,
+    /// The command that made it.
+    pub command: String,
+}
+
+impl fmt::Display for Kept {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { path, checkpoint, command } = self;
+        let resume = if command.contains(" --resume") { "" } else { " --resume" };
+        write!(f, "everything up to here, in {}\n  help: `{command}{resume}` ", path.display())?;
+        match checkpoint {
+            Some(time) => write!(f, "goes on from t = {time} s"),
+            None => write!(f, "begins again: there is no checkpoint yet"),
+        }
+    }
+}
+
 /// What the command can do about it.
 fn help(error: &PodError) -> &'static str {
     match error {
@@ -155,6 +224,17 @@ impl Error {
         }
     }
 
+    /// Whether a run ended by itself or by the person's wish, so that all there is of it is on the disk.
+    pub(crate) fn is_of_run(&self) -> bool {
+        matches!(
+            self,
+            Self::Interrupted
+                | Self::Step(_)
+                | Self::Record(RecordError::NonFinite { .. })
+                | Self::Format(FormatError::NotFinite { .. })
+        )
+    }
+
     /// Whether the machine was to blame, its disk or the memory that could be taken, and not what stood in
     /// the files.
     pub(crate) fn is_of_machine(&self) -> bool {
@@ -171,13 +251,22 @@ impl Error {
         }
     }
 
-    /// 1 where the computation failed, 2 where the input is wrong or the system refuses.
+    /// 1 where the computation failed, 2 where the input is wrong or the system refuses, [`INTERRUPTED`]
+    /// where the person wanted it.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Interrupted => INTERRUPTED,
+            Self::Stopped { source, .. } => source.exit_code(),
             Self::Pod { source, .. } if source.is_of_computation() => 1,
             Self::Elsewhere(failure) if failure.of_computation => 1,
-            Self::Step(_)
+            Self::Flow(
+                FlowError::Linear { .. }
+                | FlowError::NoConvergence { .. }
+                | FlowError::Diverged { .. },
+            )
+            | Self::Step(_)
             | Self::Verification { .. }
+            | Self::Format(FormatError::NotFinite { .. })
             | Self::Record(RecordError::NonFinite { .. })
             | Self::Piston(PistonError::NonFinite { .. }) => 1,
             _ => 2,

@@ -6,9 +6,9 @@
 //! [`command`] line. It holds no formula: those are in `lumley-fem`, `-body`, `-pod`, `-fom` and `-rom`.
 //!
 //! ```
-//! use lumley::{case::PistonCase, directory::Existing, progress::Progress, run};
+//! use lumley::{case::Case, directory::Existing, progress::Progress, run};
 //! let text = lumley::cases::find("piston").expect("it comes with lumley").text;
-//! let case = PistonCase::parse("piston/case.toml".as_ref(), text, true, &[])?;
+//! let case = Case::parse("piston/case.toml".as_ref(), text, true, &[])?;
 //! let folder = tempfile::tempdir()?;
 //! let task = run::Task::new(&folder.path().join("piston"), Existing::default());
 //! let (directory, summary) = run::run(&case, &task, &mut Progress::silent())?;
@@ -33,4 +33,4 @@ pub mod run;
 pub mod summary;
 pub mod verify;
 
-pub use error::Error;
+pub use error::{Error, Kept, OtherDomain};

@@ -240,10 +240,19 @@ impl Manifest {
     }
 }
 
+/// Most memory that this process ever had, in bytes, where the system tells.
+pub(crate) fn memory_peak() -> Option<f64> {
+    kilobytes("/proc/self/status", "VmHWM:").map(|kb| kb * 1024.0)
+}
+
+/// A number that the system gives in kB.
+fn kilobytes(path: &str, key: &str) -> Option<f64> {
+    let text = fs::read_to_string(path).ok()?;
+    let number = text.lines().find_map(|line| line.strip_prefix(key))?;
+    number.trim().trim_end_matches("kB").trim().parse().ok()
+}
+
 /// Memory of this machine in bytes, as far as the system tells; else 16 GB.
 pub(crate) fn memory() -> f64 {
-    let info = std::fs::read_to_string("/proc/meminfo").unwrap_or_default();
-    let total = info.lines().find_map(|line| line.strip_prefix("MemTotal:"));
-    let kilobytes = total.and_then(|t| t.trim().trim_end_matches("kB").trim().parse::<f64>().ok());
-    kilobytes.map_or(16e9, |kb| kb * 1024.0)
+    kilobytes("/proc/meminfo", "MemTotal:").map_or(16e9, |kb| kb * 1024.0)
 }

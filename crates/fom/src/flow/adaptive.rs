@@ -42,6 +42,11 @@ impl StepControl {
 }
 
 impl Flow {
+    /// How long the next adaptive step would be, in s; none before the first.
+    pub fn wanted_step(&self) -> Option<f64> {
+        self.wanted_step
+    }
+
     /// One step towards `end`, in s, no longer than `control` likes, such that the rest is whole steps of its length.
     /// A step with too large an error is made again, shorter.
     ///

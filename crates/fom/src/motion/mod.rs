@@ -13,6 +13,7 @@ mod outline;
 mod parameters;
 mod prescribed;
 mod rigid_motion;
+mod rigid_velocity;
 mod stiffness;
 mod zone;
 
@@ -22,4 +23,5 @@ pub use mesh_motion::{MeshMotion, MovingBoundary};
 pub use parameters::MotionParameters;
 pub use prescribed::{MotionFunction, PrescribedMotion};
 pub use rigid_motion::RigidMotion;
+pub use rigid_velocity::RigidVelocity;
 pub use stiffness::Stiffness;

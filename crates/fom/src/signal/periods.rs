@@ -50,6 +50,10 @@ impl Periods {
             }
             instants = upward_crossings(signal, level, HYSTERESIS * rms);
             instants.drain(..instants.len().saturating_sub(MOST + 1));
+            // What a start left behind, early in the signal, is no period.
+            while scatter(&instants) > LARGEST_SCATTER && instants[0] < half.start {
+                instants.remove(0);
+            }
             let &[start, .., end] = &instants[..] else { break };
             window = Window { start, end };
             level = Line::through(&windows(&instants).map(|period| {

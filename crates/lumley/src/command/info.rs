@@ -50,8 +50,8 @@ fn run_directory(path: &Path) -> Result<(), Error> {
         say(&format!("{:<15} {:.2} s", stage.name, stage.seconds))?;
     }
     super::run::headline(&summary)?;
-    let inner = path.join("record");
-    if inner.is_dir() { record(&inner) } else { Ok(()) }
+    let records = ["record", "pictures"].map(|name| path.join(name));
+    records.iter().filter(|folder| folder.is_dir()).try_for_each(|folder| record(folder))
 }
 
 fn record(path: &Path) -> Result<(), Error> {

@@ -2,8 +2,8 @@ use super::{CaseArguments, Output, say};
 use crate::Error;
 use crate::directory::default_target;
 use crate::progress::Progress;
-use crate::run::{self, Task};
-use crate::summary::Summary;
+use crate::run::{self, Interrupt, Task};
+use crate::summary::{LoadStatistics, Summary};
 use clap::Args;
 use std::time::Duration;
 
@@ -26,12 +26,13 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn execute(&self, progress: &mut Progress) -> Result<(), Error> {
-        let case = self.case.load()?.piston()?;
+        let case = self.case.load()?;
         let named = self.output.directory.clone();
-        let target = named.unwrap_or_else(|| default_target(&case.name, self.resume));
+        let target = named.unwrap_or_else(|| default_target(case.name(), self.resume));
         let mut task = Task::new(&target, self.output.existing(self.resume));
         task.threads = self.threads.map_or(task.threads, usize::from);
         task.checkpoint = Duration::from_secs(self.checkpoint);
+        task.interrupt = Interrupt::listen().map_err(Error::Signals)?;
         let (directory, summary) = run::run(&case, &task, progress)?;
         if self.output.json {
             say(&summary.to_json())?;
@@ -57,5 +58,26 @@ pub(super) fn headline(summary: &Summary) -> Result<(), Error> {
         });
         say(&format!("{:<28} {modes} modes: {what}{speedup}", model.label))?;
     }
-    Ok(())
+    let bodies = summary.loads.values().any(|load| load.is_body);
+    for (name, load) in summary.loads.iter().filter(|(_, load)| load.is_body || !bodies) {
+        say(&format!("{name:<28} {}", words(load)))?;
+    }
+    summary
+        .pressure_difference
+        .map_or(Ok(()), |p| say(&format!("{:<28} {p:.6} Pa", "pressure difference")))
+}
+
+/// The load on a boundary: coefficients where there are such, else forces.
+fn words(load: &LoadStatistics) -> String {
+    let [fx, fy] = load.force_mean;
+    let coefficients = [
+        ("Cd max", load.drag_coefficient_max),
+        ("mean", load.drag_coefficient_mean),
+        ("Cl max", load.lift_coefficient_max),
+        ("rms", load.lift_coefficient_rms),
+        ("St", load.strouhal),
+    ];
+    let known = coefficients.iter().filter_map(|(what, c)| Some(format!("{what} {:.5}", (*c)?)));
+    let known: Vec<String> = known.collect();
+    if known.is_empty() { format!("mean force ({fx:.4e}, {fy:.4e}) N/m") } else { known.join(", ") }
 }

@@ -3,7 +3,7 @@
 use super::FormatError;
 use super::atomic::AtomicFile;
 use std::fs::File;
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::Path;
 
 /// Longest table that is read, in bytes.
@@ -18,7 +18,7 @@ const LIMIT: u64 = 1 << 26;
 /// [`FormatError`], naming the file, the line and its text.
 pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<(f64, [f64; N])>, FormatError> {
     let text = read_text(path)?;
-    let wrong = |line: usize, text: &str, expected| FormatError::Line {
+    let wrong = |line: usize, text: &str, expected: String| FormatError::Line {
         path: path.to_owned(),
         line,
         text: text.chars().take(60).collect(),
@@ -33,16 +33,53 @@ pub fn read_rows<const N: usize>(path: &Path) -> Result<Vec<(f64, [f64; N])>, Fo
         if content.is_empty() || is_header {
             continue;
         }
-        let (x, values) = row(content).ok_or_else(|| wrong(number, line, numbers(N + 1)))?;
+        let numbers = || format!("{} finite numbers separated by commas", N + 1);
+        let (x, values) = row(content).ok_or_else(|| wrong(number, line, numbers()))?;
         if rows.last().is_some_and(|&(previous, _)| x <= previous) {
-            return Err(wrong(number, line, "a first column that increases from line to line"));
+            let increasing = "a first column that increases from line to line";
+            return Err(wrong(number, line, increasing.into()));
         }
         rows.push((x, values));
     }
     if rows.is_empty() {
-        return Err(wrong(text.lines().count().max(1), "", "at least one line of numbers"));
+        let last = text.lines().count().max(1);
+        return Err(wrong(last, "", "at least one line of numbers".into()));
     }
     Ok(rows)
+}
+
+/// Reads those columns of a table that are `wanted` by their headers, which stand in the first line; the table
+/// may be longer than fits into memory.
+///
+/// # Errors
+/// [`FormatError`], naming the file, the line and its text.
+pub fn read_columns(
+    path: &Path,
+    wanted: impl Fn(&str) -> bool,
+) -> Result<Vec<(String, Vec<f64>)>, FormatError> {
+    let file = File::open(path).map_err(FormatError::io("open", path))?;
+    let mut lines = BufReader::new(file).lines();
+    let headers = lines.next().transpose().map_err(FormatError::io("read", path))?;
+    let headers = headers.unwrap_or_default();
+    let headers: Vec<&str> = headers.split(',').map(str::trim).collect();
+    let places: Vec<usize> = (0..headers.len()).filter(|&k| wanted(headers[k])).collect();
+    let mut columns: Vec<(String, Vec<f64>)> =
+        places.iter().map(|&k| (headers[k].to_owned(), Vec::new())).collect();
+    for (number, line) in (2..).zip(lines) {
+        let line = line.map_err(FormatError::io("read", path))?;
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        for ((_, column), &k) in columns.iter_mut().zip(&places) {
+            let value = cells.get(k).and_then(|cell| cell.parse().ok());
+            let whole = value.filter(|_| cells.len() == headers.len());
+            column.push(whole.ok_or_else(|| FormatError::Line {
+                path: path.to_owned(),
+                line: number,
+                text: line.chars().take(60).collect(),
+                expected: "one number for each header".into(),
+            })?);
+        }
+    }
+    Ok(columns)
 }
 
 /// Writes columns of equal length under their headers; numbers are read back bit for bit.
@@ -91,15 +128,6 @@ fn read_text(path: &Path) -> Result<String, FormatError> {
 fn is_header(line: &str) -> bool {
     let first = line.split(',').next().unwrap_or_default().trim();
     first.starts_with(|c: char| c.is_alphabetic() || c == '"') && first.parse::<f64>().is_err()
-}
-
-fn numbers(count: usize) -> &'static str {
-    match count {
-        2 => "two finite numbers separated by a comma",
-        3 => "three finite numbers separated by commas",
-        4 => "four finite numbers separated by commas",
-        _ => "as many finite numbers as there are columns, separated by commas",
-    }
 }
 
 /// The numbers of a line, if they are as many as there should be and all finite.

@@ -1,4 +1,5 @@
 use super::gmsh::GmshError;
+use lumley_fem::MeshError;
 use lumley_pod::InnerProductError;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -87,6 +88,14 @@ pub enum FormatError {
         /// What is wrong with the mesh.
         source: GmshError,
     },
+    /// An archive that holds no mesh.
+    #[error("{}: {source}\n  help: the file was changed or damaged; make the run again", path.display())]
+    Mesh {
+        /// The archive.
+        path: PathBuf,
+        /// What is wrong with the mesh.
+        source: MeshError,
+    },
     /// There is not one time for each snapshot.
     #[error("{}: {snapshots} snapshots, but {times} times\n  help: give one time for each snapshot", path.display())]
     TimeCount {
@@ -169,7 +178,7 @@ pub enum FormatError {
         /// What stands there.
         text: String,
         /// What was expected.
-        expected: &'static str,
+        expected: String,
     },
     /// A table is too long to be one.
     #[error("{}: larger than {limit} bytes\n  help: a table is short; give fields as NPY", path.display())]

@@ -12,7 +12,8 @@ impl Model for Piston {
 
     fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let step = Piston::step(self, dt)?;
-        Ok(StepReport { iterations: step.iterations, residual: step.residual })
+        let (iterations, residual) = (step.iterations, step.residual);
+        Ok(StepReport { iterations, residual, renewals: 0 })
     }
 
     fn sample(&self, frame: &Frame, v: &mut [f64]) -> Result<(), StepError> {
@@ -24,6 +25,7 @@ impl Model for Piston {
                 }
                 Ok(())
             }
+            Frame::Picture { .. } => Err(StepError::UnknownFrame { frame: frame.name() }),
         }
     }
 

@@ -21,7 +21,9 @@ impl Model for ReducedPiston {
                 ReducedPiston::sample(self, grid, v)?;
                 Ok(())
             }
-            Frame::Reference => Err(StepError::UnknownFrame { frame: frame.name() }),
+            Frame::Reference | Frame::Picture { .. } => {
+                Err(StepError::UnknownFrame { frame: frame.name() })
+            }
         }
     }
 

@@ -19,6 +19,7 @@ use std::path::Path;
 ///     }],
 ///     series: vec![SeriesDescription { name: "position".into(), entries: vec![x] }],
 ///     provenance: [("program".into(), "lumley".into())].into(),
+///     gathered: None,
 /// };
 /// assert_eq!(description.frames[0].rows(), 401);
 /// ```
@@ -30,6 +31,9 @@ pub struct Description {
     pub series: Vec<SeriesDescription>,
     /// Where the record comes from: program, version, case, ...
     pub provenance: BTreeMap<String, String>,
+    /// Most snapshots that the writer gathers before they go to disk; without it as many as 64 MiB hold,
+    /// but 16 at least. A record that is opened does not say it.
+    pub gathered: Option<usize>,
 }
 
 /// A physical quantity.

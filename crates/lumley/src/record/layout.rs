@@ -115,6 +115,7 @@ impl Layout {
             frames: frames.collect::<Result<_, RecordError>>()?,
             series: metadata.series.clone(),
             provenance: metadata.provenance.clone(),
+            gathered: None,
         })
     }
 

@@ -95,6 +95,7 @@ impl Metadata {
     pub fn new(description: &Description) -> Self {
         let rows: usize = description.frames.iter().map(FrameDescription::rows).sum();
         let chunk_snapshots = (BATCH / rows).clamp(16, 256);
+        let chunk_snapshots = description.gathered.unwrap_or(usize::MAX).clamp(1, chunk_snapshots);
         let frames = description.frames.iter();
         Self {
             format: FORMAT,

@@ -1,6 +1,6 @@
 //! Reports: one self-contained page for a run, and its figures.
 //!
-//! [`PistonReport`] and [`PodReport`] take plain vectors and give a [`Report`]: strings, which the
+//! [`PistonReport`], [`FlowReport`] and [`PodReport`] take plain vectors and give a [`Report`]: strings, which the
 //! caller writes where it wants. The page needs no network, no script to be complete, and no file
 //! beside it. [`figure`] and [`html`] are the parts that reports are made of.
 
@@ -8,6 +8,7 @@
 mod checks;
 mod energy;
 pub mod figure;
+mod flow;
 pub mod html;
 mod markup;
 mod number;
@@ -17,6 +18,10 @@ mod provenance;
 #[cfg(test)]
 pub(crate) mod wellformed;
 
+pub use flow::{
+    BoundaryLoads, Film, FlowModes, FlowReference, FlowReport, FlowSettings, FlowWork, History,
+    LoadNumbers, ProbeSeries, Scene, Track, View,
+};
 pub use html::Report;
 pub use markup::{escape, literal};
 pub use piston::{

@@ -46,6 +46,11 @@ pub(super) fn exact(value: f64) -> String {
     format!("{mantissa} × 10^{{{exponent}}}")
 }
 
+/// `value` rounded to five significant digits, without zeros at its end.
+pub(super) fn short(value: f64) -> String {
+    exact(format!("{value:.4e}").parse().expect("a printed number can be read"))
+}
+
 /// `value` with `digits` significant digits as m × 10^{e}, whatever its size.
 pub(super) fn scientific(value: f64, digits: usize) -> String {
     if !value.is_finite() || value == 0.0 {
@@ -107,6 +112,10 @@ mod tests {
         assert_eq!(significant(9.9996, 4), "10.00");
         assert_eq!(significant(0.0, 3), "0");
         assert_eq!(scientific(0.006_185, 4), "6.185 × 10^{−3}");
+        assert_eq!(
+            [short(100.000_000_1), short(0.1 + 0.2), short(f64::NAN)],
+            ["100", "0.3", NOTHING]
+        );
         assert_eq!([exact(39.5), exact(-0.1), exact(2e-7)], ["39.5", "−0.1", "2 × 10^{−7}"]);
     }
 

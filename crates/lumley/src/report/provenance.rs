@@ -3,6 +3,7 @@
 use super::html::{Section, Table};
 use super::number::duration;
 use super::{escape, literal};
+use crate::manifest::Manifest;
 
 /// Where the numbers come from.
 ///
@@ -27,6 +28,17 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// What the manifest of a run says, and its case file.
+    pub fn of(manifest: &Manifest, case_file: String) -> Self {
+        Self {
+            version: manifest.version.clone(),
+            command: manifest.command.clone(),
+            machine: manifest.machine.to_string(),
+            stages: manifest.stages.iter().map(|s| (s.name.clone(), s.seconds)).collect(),
+            case_file,
+        }
+    }
+
     /// Time of all stages, in s.
     pub fn seconds(&self) -> f64 {
         self.stages.iter().map(|(_, seconds)| seconds).sum()

@@ -1,20 +1,16 @@
 use super::basis::BasisFile;
-use super::ground::{grid_product, is_mapped};
 use crate::Error;
-use crate::case::{PistonCase, PodChoice};
+use crate::case::PodChoice;
 use crate::directory::Workplace;
 use crate::record::{FrameReader, Record};
 use crate::summary::Decomposition;
 use faer::{Mat, Par};
-use lumley_fem::LineMesh;
-use lumley_fem::element::{P1, P2};
+use lumley_fem::UniformGrid;
 use lumley_pod::{
-    ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition as Found, InnerProduct, MemorySnapshots,
-    Note, Options, PodError, ReducedBasis, SnapshotSource, SparseSpd, Truncation,
-    projection_residuals,
+    ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition as Found, InnerProduct, Kronecker, Note,
+    Options, PodError, ReducedBasis, SnapshotSource, Tridiagonal, Truncation, projection_residuals,
 };
 use std::num::NonZero;
-use std::path::Path;
 
 /// Errors and models are shown for this many modes at least.
 pub(super) const SWEEP: usize = 10;
@@ -123,36 +119,25 @@ fn pod(
     (algorithm(&choice.method).run)(x, product, &options)
 }
 
-/// The decompositions of a run, and what projection on the first modes loses.
-pub(super) struct Decompositions {
-    pub fixed: Decomposed,
-    pub reference: Option<Decomposed>,
-    pub projection_percent: Vec<f64>,
-}
-
-/// POD of the record's frames; the bases are written to `basis/`.
-pub(super) fn decompose(
-    case: &PistonCase,
+/// POD of the velocity on the fixed grid, and what projection on its first modes loses, in percent; the
+/// basis is written to `basis/fixed.npz`.
+pub(super) fn on_fixed_grid(
+    grid: &UniformGrid,
+    choice: &PodChoice,
     record: &Record,
     place: &Workplace,
     threads: usize,
-) -> Result<Decompositions, Error> {
-    let product = grid_product(&case.grid, 1);
+) -> Result<(Decomposed, Vec<f64>), Error> {
+    let product = grid_product(grid, grid.dimension());
     let velocities = record.frame("fixed")?;
     let path = place.path().join("record");
-    let fixed = Decomposed::with_sweep(&velocities, &product, &case.pod, threads);
+    let fixed = Decomposed::with_sweep(&velocities, &product, choice, threads);
     let fixed = fixed.map_err(Error::pod(&path))?;
     let residuals = projection_residuals(&fixed.basis, &velocities, &product);
     let residuals = residuals.map_err(Error::pod(&path))?;
     let folder = place.fresh_folder("basis")?;
     BasisFile::save(&folder.join("fixed.npz"), &fixed.basis)?;
-    let mapped = case.models.iter().any(is_mapped);
-    let reference = if mapped { Some(reference(case, record, &path, threads)?) } else { None };
-    if let Some(reference) = &reference {
-        BasisFile::save(&folder.join("reference.npz"), &reference.basis)?;
-    }
-    let projection_percent = residuals.iter().take(SWEEP).map(|res| 100.0 * res).collect();
-    Ok(Decompositions { fixed, reference, projection_percent })
+    Ok((fixed, residuals.iter().take(SWEEP).map(|res| 100.0 * res).collect()))
 }
 
 /// All snapshots of a frame, in columns.
@@ -162,49 +147,13 @@ pub(super) fn whole(frame: &FrameReader) -> Result<Mat<f64>, Error> {
     Ok(x)
 }
 
-/// POD of u - X' xi in L2(0, 1). It vanishes at both ends, and so do the modes, to the last bit: the end
-/// nodes are no unknowns.
-fn reference(
-    case: &PistonCase,
-    record: &Record,
-    path: &Path,
-    threads: usize,
-) -> Result<Decomposed, Error> {
-    let mesh = LineMesh::new(case.cells, if case.degree == 1 { &P1 } else { &P2 });
-    let nodes = mesh.uniform(0.0, 1.0);
-    let xi: Vec<f64> = mesh.left_to_right().map(|node| nodes[node]).collect();
-    let u = record.frame("reference")?;
-    let velocities = record.series("velocity")?;
-    let mut x = whole(&u)?;
-    for (k, column) in x.col_iter_mut().enumerate() {
-        for (u, xi) in column.iter_mut().zip(&xi) {
-            *u -= velocities.at(k)[0] * xi;
-        }
-    }
-    let inside = x.subrows(1, x.nrows() - 2).to_owned();
-    let x = MemorySnapshots::new(inside, u.times().to_vec());
-    let found = Decomposed::with_sweep(&x, &inner_mass(&mesh, &nodes), &case.pod, threads);
-    let mut found = found.map_err(Error::pod(path))?;
-    let modes = &found.basis.modes;
-    let mut padded = Mat::zeros(xi.len(), modes.ncols());
-    padded.subrows_mut(1, modes.nrows()).copy_from(modes);
-    found.basis.modes = padded;
-    if let Some(mean) = &mut found.basis.mean {
-        mean.insert(0, 0.0);
-        mean.push(0.0);
-    }
-    Ok(found)
-}
-
-/// The mass matrix of all nodes but the first and the last, from left to right.
-fn inner_mass(mesh: &LineMesh, nodes: &[f64]) -> SparseSpd {
-    // Records list the nodes from left to right, meshes their vertices first.
-    let mut place = vec![0; mesh.nodes()];
-    mesh.left_to_right().enumerate().for_each(|(k, node)| place[node] = k);
-    let inner = mesh.nodes() - 2;
-    let inside = |node: usize| place[node].checked_sub(1).filter(|k| *k < inner);
-    let mass = mesh.mass_matrix(nodes).into_iter();
-    let mass = mass.filter_map(|(i, j, m)| Some((inside(i)?, inside(j)?, m)));
-    let product = SparseSpd::from_triplets(inner, &mass.collect::<Vec<_>>());
-    product.expect("a mass matrix is symmetric positive definite")
+/// L2 of a field of several components on a grid.
+///
+/// # Panics
+/// Never: a mass matrix is positive definite.
+pub fn grid_product(grid: &UniformGrid, components: usize) -> Kronecker {
+    let direction = |(diagonal, beside): &(Vec<f64>, Vec<f64>)| {
+        Tridiagonal::new(diagonal, beside).expect("a mass matrix is positive definite")
+    };
+    Kronecker::new(grid.mass_factors().iter().map(direction).collect(), components)
 }

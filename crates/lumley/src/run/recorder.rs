@@ -1,9 +1,8 @@
 use super::Work;
 use crate::Error;
-use crate::case::PistonCase;
-use crate::model::{Frame, Model, Observer};
+use crate::model::{Frame, Model, Observer, Stop};
 use crate::record::{
-    Description, FrameDescription, Quantity, RecordWriter, SeriesDescription, Snapshot, Support,
+    Description, FrameDescription, Quantity, RecordWriter, SeriesDescription, Snapshot,
 };
 use std::path::Path;
 
@@ -12,7 +11,7 @@ type Reading<M> = Box<dyn Fn(&M) -> Result<Vec<f64>, Error> + Send>;
 
 /// A short vector that is read off the model and recorded with each snapshot, as a series.
 pub struct Gauge<M> {
-    name: &'static str,
+    name: String,
     entries: Vec<Quantity>,
     sample: Reading<M>,
 }
@@ -20,11 +19,11 @@ pub struct Gauge<M> {
 impl<M: Model> Gauge<M> {
     /// The series `name` with these entries, read off the model by `sample`.
     pub fn new(
-        name: &'static str,
+        name: impl Into<String>,
         entries: Vec<Quantity>,
         sample: impl Fn(&M) -> Result<Vec<f64>, Error> + Send + 'static,
     ) -> Self {
-        Self { name, entries, sample: Box::new(sample) }
+        Self { name: name.into(), entries, sample: Box::new(sample) }
     }
 
     /// Position and velocity of the piston.
@@ -43,42 +42,40 @@ impl<M: Model> Gauge<M> {
 /// The observer that writes snapshots to a record: fields in frames, gauges as series.
 pub struct Recorder<M> {
     writer: RecordWriter,
-    interval: f64,
     frames: Vec<(Frame, Vec<f64>)>,
     gauges: Vec<Gauge<M>>,
 }
 
-/// The frames of a record, their supports, and the gauges beside them.
+/// What a record is of, its frames, and the gauges beside them.
 pub struct Plan<M> {
-    /// Time between snapshots, in s.
-    pub interval: f64,
-    /// The frames and the nodes they have.
-    pub frames: Vec<(Frame, Support)>,
+    /// Name of the case.
+    pub case: String,
+    /// The resolved case file.
+    pub case_file: String,
+    /// Most snapshots that wait in memory, if not as many as 64 MiB hold.
+    pub gathered: Option<usize>,
+    /// The frames and what the record says of them.
+    pub frames: Vec<(Frame, FrameDescription)>,
     /// The gauges.
     pub gauges: Vec<Gauge<M>>,
 }
 
 impl<M: Model> Plan<M> {
-    fn description(&self, case: &PistonCase) -> Description {
-        let frame = |(frame, support): &(Frame, Support)| FrameDescription {
-            name: frame.name().into(),
-            support: support.clone(),
-            length_unit: frame.length_unit().into(),
-            components: vec![Quantity::new("u", "m/s")],
-        };
+    fn description(&self) -> Description {
         let series = |gauge: &Gauge<M>| SeriesDescription {
-            name: gauge.name.into(),
+            name: gauge.name.clone(),
             entries: gauge.entries.clone(),
         };
         let provenance = [
             ("program", format!("lumley {}", env!("CARGO_PKG_VERSION"))),
-            ("case", case.name.clone()),
-            ("case_file", case.to_toml()),
+            ("case", self.case.clone()),
+            ("case_file", self.case_file.clone()),
         ];
         Description {
-            frames: self.frames.iter().map(frame).collect(),
+            frames: self.frames.iter().map(|(_, description)| description.clone()).collect(),
             series: self.gauges.iter().map(series).collect(),
             provenance: provenance.map(|(key, value)| (key.to_owned(), value)).into(),
+            gathered: self.gathered,
         }
     }
 }
@@ -88,8 +85,8 @@ impl<M: Model> Recorder<M> {
     ///
     /// # Errors
     /// The failure of the disk.
-    pub fn create(folder: &Path, case: &PistonCase, plan: Plan<M>) -> Result<Self, Error> {
-        let writer = RecordWriter::create(folder, &plan.description(case))?;
+    pub fn create(folder: &Path, plan: Plan<M>) -> Result<Self, Error> {
+        let writer = RecordWriter::create(folder, &plan.description())?;
         Ok(Self::new(writer, plan))
     }
 
@@ -104,14 +101,10 @@ impl<M: Model> Recorder<M> {
     }
 
     fn new(writer: RecordWriter, plan: Plan<M>) -> Self {
-        let buffer = |(frame, support): (Frame, Support)| (frame, vec![0.0; support.len()]);
-        let interval = plan.interval;
-        Self {
-            writer,
-            interval,
-            frames: plan.frames.into_iter().map(buffer).collect(),
-            gauges: plan.gauges,
-        }
+        let buffer = |(frame, description): (Frame, FrameDescription)| {
+            (frame, vec![0.0; description.rows()])
+        };
+        Self { writer, frames: plan.frames.into_iter().map(buffer).collect(), gauges: plan.gauges }
     }
 
     /// Commits what was recorded so far.
@@ -132,9 +125,7 @@ impl<M: Model> Recorder<M> {
 }
 
 impl<M: Model> Observer<M> for Recorder<M> {
-    fn observe(&mut self, model: &M, snapshot: usize, _: &Work) -> Result<(), Error> {
-        // Not the model's own time, which is a sum of steps and of their round-off.
-        let time = snapshot as f64 * self.interval;
+    fn observe(&mut self, model: &M, Stop { time, .. }: Stop, _: &Work) -> Result<(), Error> {
         for (frame, values) in &mut self.frames {
             model.sample(frame, values)?;
         }

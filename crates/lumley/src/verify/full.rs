@@ -1,7 +1,7 @@
 use super::Tolerance::{AtMost, Relative};
 use super::{Row, Tolerance, res};
 use crate::Error;
-use crate::case::PistonCase;
+use crate::case::{Case, PistonCase};
 use crate::cases;
 use crate::directory::Existing;
 use crate::progress::Progress;
@@ -49,9 +49,9 @@ impl<'a> Bench<'a> {
         settings: &[String],
     ) -> Result<(PistonCase, Summary), Error> {
         let text = cases::find("piston").map_or("", |case| case.text);
-        let case = PistonCase::parse("piston/case.toml".as_ref(), text, false, settings)?;
+        let case = Case::parse("piston/case.toml".as_ref(), text, false, settings)?;
         let (_, summary) = run::run(&case, &self.task(name), self.progress)?;
-        Ok((case, summary))
+        Ok((case.piston()?, summary))
     }
 
     fn task(&self, name: &str) -> Task {

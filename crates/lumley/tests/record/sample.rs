@@ -43,6 +43,7 @@ pub fn description(nodes: [usize; 2]) -> Description {
         series: vec![position, load],
         provenance: [("program".into(), "lumley 0.1.0".into()), ("case".into(), "a = 1\n".into())]
             .into(),
+        gathered: None,
     }
 }
 

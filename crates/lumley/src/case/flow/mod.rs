@@ -143,6 +143,13 @@ pub struct Reference {
     pub density: f64,
 }
 
+impl Reference {
+    /// The force `ρ U² L/2` whose coefficient is one, in N for each m of span.
+    pub fn force(&self) -> f64 {
+        0.5 * self.density * self.velocity * self.velocity * self.length
+    }
+}
+
 /// A point at which velocity and pressure are measured.
 ///
 /// ```

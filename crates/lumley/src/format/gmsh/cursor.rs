@@ -35,7 +35,7 @@ impl<'a> Cursor<'a> {
             let line = self.bytes[..place].split(|&byte| byte == b'\n').count();
             let end = rest.iter().position(|&byte| byte == b'\n').unwrap_or(rest.len());
             let text = String::from_utf8_lossy(&rest[..end.min(60)]).into_owned();
-            FormatError::Line { path, line, text, expected }
+            FormatError::Line { path, line, text, expected: expected.to_owned() }
         } else {
             FormatError::Bytes { path, offset: place as u64, found: excerpt(rest), expected }
         }

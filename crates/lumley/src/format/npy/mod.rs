@@ -13,5 +13,5 @@ mod write;
 pub use matrix::{NpyMatrix, read_vector};
 pub use snapshots::{NpySnapshots, SnapshotLayout};
 pub use weights::NpyWeights;
+pub(in crate::format) use write::{FLOATS, INTEGERS, file_size, header, push_columns};
 pub use write::{NpyWriter, write_matrix, write_vector};
-pub(in crate::format) use write::{file_size, header, push_columns};

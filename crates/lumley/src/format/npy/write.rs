@@ -4,6 +4,10 @@ use faer::MatRef;
 use std::io::{self, Write};
 use std::path::Path;
 
+/// NumPy's names of the types that are written, both of eight bytes.
+pub(in crate::format) const FLOATS: &str = "<f8";
+pub(in crate::format) const INTEGERS: &str = "<i8";
+
 /// Writes an array of `f64` in NPY format as its numbers come, the first index fastest (Fortran order).
 ///
 /// ```
@@ -25,8 +29,13 @@ impl<W: Write> NpyWriter<W> {
     ///
     /// # Errors
     /// The failure of `out`.
-    pub fn new(mut out: W, shape: &[usize]) -> io::Result<Self> {
-        out.write_all(&header(shape, shape.len() > 1))?;
+    pub fn new(out: W, shape: &[usize]) -> io::Result<Self> {
+        Self::of(out, FLOATS, shape)
+    }
+
+    /// Begins an array of numbers of this type, of eight bytes.
+    pub(in crate::format) fn of(mut out: W, descr: &str, shape: &[usize]) -> io::Result<Self> {
+        out.write_all(&header_of(descr, shape, shape.len() > 1))?;
         Ok(Self { out, missing: shape.iter().product() })
     }
 
@@ -38,13 +47,25 @@ impl<W: Write> NpyWriter<W> {
     /// # Panics
     /// If these are more numbers than the shape has places.
     pub fn push(&mut self, values: &[f64]) -> io::Result<()> {
-        assert!(values.len() <= self.missing, "no more numbers than places");
-        self.missing -= values.len();
-        for part in values.chunks(4096) {
+        values.chunks(4096).try_for_each(|part| {
             let bytes: Vec<u8> = part.iter().flat_map(|value| value.to_le_bytes()).collect();
-            self.out.write_all(&bytes)?;
-        }
-        Ok(())
+            self.push_encoded(&bytes)
+        })
+    }
+
+    /// Appends whole numbers to an array of them.
+    pub(in crate::format) fn push_integers(
+        &mut self,
+        values: impl Iterator<Item = i64>,
+    ) -> io::Result<()> {
+        self.push_encoded(&values.flat_map(i64::to_le_bytes).collect::<Vec<u8>>())
+    }
+
+    fn push_encoded(&mut self, bytes: &[u8]) -> io::Result<()> {
+        let numbers = bytes.len() / 8;
+        assert!(numbers <= self.missing, "no more numbers than places");
+        self.missing -= numbers;
+        self.out.write_all(bytes)
     }
 
     /// Ends the array.
@@ -104,10 +125,16 @@ pub(in crate::format) fn file_size(shape: &[usize]) -> u64 {
 
 /// The header, version 1.0, padded as NumPy does so that the numbers are aligned to 64 bytes.
 pub(in crate::format) fn header(shape: &[usize], fortran_order: bool) -> Vec<u8> {
+    header_of(FLOATS, shape, fortran_order)
+}
+
+fn header_of(descr: &str, shape: &[usize], fortran_order: bool) -> Vec<u8> {
     let axes: Vec<String> = shape.iter().map(|axis| format!("{axis},")).collect();
     let order = if fortran_order { "True" } else { "False" };
-    let text =
-        format!("{{'descr': '<f8', 'fortran_order': {order}, 'shape': ({}), }}", axes.join(" "));
+    let text = format!(
+        "{{'descr': '{descr}', 'fortran_order': {order}, 'shape': ({}), }}",
+        axes.join(" ")
+    );
     let total = (10 + text.len() + 1).next_multiple_of(64);
     let length = u16::try_from(total - 10).expect("an array of few axes");
     let mut bytes = b"\x93NUMPY\x01\x00".to_vec();

@@ -10,6 +10,9 @@ use std::path::Path;
 /// Names that a message lists at most.
 const LISTED: usize = 10;
 
+/// Whole numbers below it are exact.
+const LARGEST: f64 = 9e15;
+
 /// The named arrays of an NPZ archive.
 ///
 /// ```
@@ -95,6 +98,38 @@ impl NpzReader {
     /// As for [`matrix`](Self::matrix), and for a matrix that is not a vector.
     pub fn vector(&self, name: &str) -> Result<Vec<f64>, FormatError> {
         self.matrix(name)?.read_as_vector()
+    }
+
+    /// The rows of the matrix of whole numbers `name`, such as the nodes of cells.
+    ///
+    /// # Errors
+    /// As for [`matrix`](Self::matrix), and [`FormatError::Shape`] for other than N columns, or numbers that
+    /// count nothing.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "checked to be in range"
+    )]
+    pub fn integers<const N: usize>(&self, name: &str) -> Result<Vec<[usize; N]>, FormatError> {
+        let array = self.matrix(name)?;
+        let refused = || FormatError::Shape {
+            path: array.path().to_owned(),
+            shape: array.shape().to_vec(),
+            expected: "rows of whole numbers from 0 on, as many in each as a cell or an edge has nodes",
+        };
+        if array.cols() != N {
+            return Err(refused());
+        }
+        let numbers = array.read()?;
+        let whole = |x: f64| (x >= 0.0 && x.fract() == 0.0 && x < LARGEST).then_some(x as usize);
+        let row = |i: usize| -> Option<[usize; N]> {
+            let mut row = [0; N];
+            for (j, n) in row.iter_mut().enumerate() {
+                *n = whole(numbers[(i, j)])?;
+            }
+            Some(row)
+        };
+        (0..numbers.nrows()).map(|i| row(i).ok_or_else(refused)).collect()
     }
 }
 

@@ -59,7 +59,8 @@ impl NpzWriter {
     /// # Panics
     /// If the name is taken.
     pub fn matrix(&mut self, name: &str, x: MatRef<'_, f64>) -> Result<(), FormatError> {
-        self.array(name, &[x.nrows(), x.ncols()], |npy| npy::push_columns(npy, x))
+        let shape = [x.nrows(), x.ncols()];
+        self.array(name, npy::FLOATS, &shape, |npy| npy::push_columns(npy, x))
     }
 
     /// Writes a vector.
@@ -70,13 +71,43 @@ impl NpzWriter {
     /// # Panics
     /// If the name is taken.
     pub fn vector(&mut self, name: &str, x: &[f64]) -> Result<(), FormatError> {
-        self.array(name, &[x.len()], |npy| npy.push(x))
+        self.array(name, npy::FLOATS, &[x.len()], |npy| npy.push(x))
+    }
+
+    /// Writes rows of whole numbers, such as the nodes of cells: a matrix of integers.
+    ///
+    /// ```
+    /// use lumley::format::npz::{NpzReader, NpzWriter};
+    /// # let folder = tempfile::tempdir()?;
+    /// # let path = folder.path().join("mesh.npz");
+    /// let mut npz = NpzWriter::create(&path)?;
+    /// npz.integers("edges", &[[0, 1], [1, 2], [2, 0]])?;
+    /// npz.finish()?;
+    /// assert_eq!(NpzReader::open(&path)?.integers::<2>("edges")?, [[0, 1], [1, 2], [2, 0]]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`FormatError::Io`]; the archive must then be given up.
+    ///
+    /// # Panics
+    /// If the name is taken, or a number is beyond those of 63 bits.
+    pub fn integers<const N: usize>(
+        &mut self,
+        name: &str,
+        rows: &[[usize; N]],
+    ) -> Result<(), FormatError> {
+        let number = |n: usize| i64::try_from(n).expect("a number of 63 bits");
+        self.array(name, npy::INTEGERS, &[rows.len(), N], |npy| {
+            (0..N).try_for_each(|j| npy.push_integers(rows.iter().map(|row| number(row[j]))))
+        })
     }
 
     /// Writes an array as its numbers come: `push` gives them all, the first index fastest.
     fn array(
         &mut self,
         name: &str,
+        descr: &str,
         shape: &[usize],
         push: impl FnOnce(&mut NpyWriter<&mut Checked<'_>>) -> io::Result<()>,
     ) -> Result<(), FormatError> {
@@ -87,7 +118,7 @@ impl NpzWriter {
             let member = Member { name, crc: 0, size: npy::file_size(shape), local };
             self.out.write_all(&local_header(&member, self.limit))?;
             let mut checked = Checked { out: &mut self.out, crc: 0 };
-            let mut npy = NpyWriter::new(&mut checked, shape)?;
+            let mut npy = NpyWriter::of(&mut checked, descr, shape)?;
             push(&mut npy)?;
             npy.finish();
             let crc = checked.crc;

@@ -94,11 +94,11 @@ fn is_plain(c: char) -> bool {
 }
 
 fn parse(path: &Path, text: &str) -> Result<Vec<(f64, String)>, FormatError> {
-    let wrong = |line: usize, expected| FormatError::Line {
+    let wrong = |line: usize, expected: &str| FormatError::Line {
         path: path.to_owned(),
         line,
         text: text.lines().nth(line - 1).unwrap_or_default().chars().take(60).collect(),
-        expected,
+        expected: expected.to_owned(),
     };
     let body = text.strip_prefix(HEAD).ok_or_else(|| wrong(1, "the head of a series of lumley"))?;
     let lines = body.strip_suffix(TAIL);

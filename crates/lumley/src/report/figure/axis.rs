@@ -154,6 +154,11 @@ impl Scale {
         (self.lo, self.hi)
     }
 
+    /// How much an axis shows.
+    pub(super) fn length(&self) -> f64 {
+        self.hi - self.lo
+    }
+
     /// About one tick every `spacing` units.
     pub(super) fn ticks(&self, spacing: f64) -> Ticks {
         let length = (self.pixels.1 - self.pixels.0).abs();

@@ -54,6 +54,28 @@ impl Frame {
         Self { left, top, width: across, height: inner, x, y, x_ticks, y_ticks }
     }
 
+    /// The same with one unit of x as long as one of y, in at most the given height; extremely flat and
+    /// tall plots are less so.
+    pub(super) fn equal(
+        (width, most): (f64, f64),
+        head: f64,
+        right: f64,
+        x: Scale,
+        y: Scale,
+    ) -> Self {
+        let frame = Self::new((width, most), head, right, x, y);
+        let ratio = (y.length() / x.length()).clamp(0.04, 25.0);
+        let across = frame.width.min(frame.height / ratio);
+        let (x, y) = (x.over((0.0, across)), y.over((across * ratio, 0.0)));
+        let (x_ticks, y_ticks) = (x.ticks(60.0), y.ticks(36.0));
+        Self { width: across, height: across * ratio, x, y, x_ticks, y_ticks, ..frame }
+    }
+
+    /// Height of the whole drawing.
+    pub(super) fn total_height(&self) -> f64 {
+        self.top + self.height + FOOT
+    }
+
     /// Draws grid, ticks and titles; the vertical axis is titled above its top end, where it can
     /// be read without turning the head.
     pub(super) fn draw(&self, svg: &mut Svg, x: &Axis, y: &Axis) {

@@ -2,6 +2,7 @@
 
 use super::axis::{Axis, LARGEST, Scale};
 use super::colour::ColourMap;
+use super::curves::Curves;
 use super::frame::{Frame, LABEL, RAISE, label_width, positions};
 use super::raster;
 use super::series::Series;
@@ -9,7 +10,7 @@ use super::svg::{Px, Svg};
 use super::{Drawing, WIDTH};
 
 /// Most pixels along one axis; finer data are sampled.
-const PIXELS: usize = 400;
+const PIXELS: usize = 480;
 
 /// Width of the colour bar.
 const BAR: f64 = 14.0;
@@ -35,8 +36,20 @@ pub struct HeatMap {
     y: (Axis, Vec<f64>),
     values: Vec<f64>,
     scale: Axis,
-    limit: Option<f64>,
+    shades: Shades,
     overlays: Vec<Series>,
+    curves: Vec<Curves>,
+}
+
+/// Which values the colours stand for.
+#[derive(Debug, Clone, Copy)]
+enum Shades {
+    /// All that there are.
+    Fitted,
+    /// Signed values up to this size.
+    Signed(f64),
+    /// Values from the first to the second.
+    Between(f64, f64),
 }
 
 impl HeatMap {
@@ -51,8 +64,9 @@ impl HeatMap {
             y: (y.0, y.1.to_vec()),
             values,
             scale: Axis::new("", ""),
-            limit: None,
+            shades: Shades::Fitted,
             overlays: Vec::new(),
+            curves: Vec::new(),
         }
     }
 
@@ -67,7 +81,19 @@ impl HeatMap {
     /// larger gets the last colour. A limit that is negative or not finite is ignored.
     #[must_use]
     pub fn limit(mut self, limit: f64) -> Self {
-        self.limit = (limit >= 0.0 && limit.is_finite()).then_some(limit);
+        if limit >= 0.0 && limit.is_finite() {
+            self.shades = Shades::Signed(limit);
+        }
+        self
+    }
+
+    /// Fixes the sequential map to `lo` to `hi`, in the same way. A range that is empty or not finite is
+    /// ignored.
+    #[must_use]
+    pub fn range(mut self, lo: f64, hi: f64) -> Self {
+        if lo < hi && (hi - lo).is_finite() {
+            self.shades = Shades::Between(lo, hi);
+        }
         self
     }
 
@@ -75,6 +101,13 @@ impl HeatMap {
     #[must_use]
     pub fn overlay(mut self, series: Series) -> Self {
         self.overlays.push(series);
+        self
+    }
+
+    /// Draws outlines over the picture, in the coordinates of its axes.
+    #[must_use]
+    pub fn curves(mut self, curves: Curves) -> Self {
+        self.curves.push(curves);
         self
     }
 
@@ -90,57 +123,81 @@ impl HeatMap {
 
     /// The picture at a width of its own.
     pub fn draw_at(&self, width: f64, height: f64) -> Drawing {
+        self.draw_in((width, height), Frame::new)
+    }
+
+    /// The picture with one unit of x as long as one of y, at most so wide and high.
+    pub fn draw_equal(&self, width: f64, most: f64) -> Drawing {
+        self.draw_in((width, most), Frame::equal)
+    }
+
+    fn draw_in(
+        &self,
+        (width, height): (f64, f64),
+        frame: impl Fn((f64, f64), f64, f64, Scale, Scale) -> Frame,
+    ) -> Drawing {
         let (map, colours) = self.colours();
         let mut svg = Svg::default();
-        let x = self.x.0.fit(self.x.1.iter().copied(), 0.0, (0.0, 1.0));
-        let y = self.y.0.fit(self.y.1.iter().copied(), 0.0, (0.0, 1.0));
+        let (x, y) = self.scales();
         let labels = label_width(&colours.over((0.0, height)).ticks(36.0)).max(LABEL);
-        let frame = Frame::new((width, height), 0.0, BAR + 34.0 + labels, x, y);
+        let frame = frame((width, height), 0.0, BAR + 34.0 + labels, x, y);
         frame.draw(&mut svg, &self.x.0, &self.y.0);
         frame.plot(&mut svg, |svg| {
-            self.draw_picture(svg, &frame, map, colours);
+            if let Some(uri) = self.uri() {
+                picture(svg, (0.0, 0.0, frame.width, frame.height), &uri);
+            }
+            self.curves.iter().for_each(|c| c.draw(svg, &frame));
             self.overlays.iter().for_each(|s| s.draw(svg, &frame));
         });
         self.draw_bar(&mut svg, &frame, map, colours);
-        Drawing { width, height, svg }
+        Drawing { width, height: frame.total_height(), svg }
     }
 
-    /// The height at which one unit of x is as long as one of y, at the given width; very flat and
-    /// very tall fields are drawn less so.
-    pub fn height_of_equal_scales(&self, width: f64) -> f64 {
-        let length = |nodes: &[f64]| nodes.last().zip(nodes.first()).map_or(0.0, |(b, a)| b - a);
-        let ratio = length(&self.y.1) / length(&self.x.1);
-        let ratio = if ratio.is_finite() { ratio.clamp(0.05, 1.2) } else { 1.0 };
-        (width - 110.0) * ratio + 62.0
+    fn scales(&self) -> (Scale, Scale) {
+        let fit =
+            |(axis, nodes): &(Axis, Vec<f64>)| axis.fit(nodes.iter().copied(), 0.0, (0.0, 1.0));
+        (fit(&self.x), fit(&self.y))
     }
 
     /// The colour map and the scale of its values.
     fn colours(&self) -> (ColourMap, Scale) {
         let finite = || self.values.iter().copied().filter(|v| v.is_finite());
-        let signed = self.limit.is_some() || finite().any(|v| v < 0.0);
-        if signed {
-            let limit = self.limit.unwrap_or_else(|| self.peak()).min(LARGEST);
-            return (ColourMap::Diverging, self.scale.fit([-limit, limit], 0.0, (0.0, 1.0)));
+        let shades = match self.shades {
+            Shades::Fitted if finite().any(|v| v < 0.0) => Shades::Signed(self.peak()),
+            shades => shades,
+        };
+        let pixels = (0.0, 1.0);
+        match shades {
+            Shades::Signed(limit) => {
+                let limit = limit.min(LARGEST);
+                (ColourMap::Diverging, self.scale.fit([-limit, limit], 0.0, pixels))
+            }
+            Shades::Between(lo, hi) => {
+                (ColourMap::Sequential, self.scale.fit([lo, hi], 0.0, pixels))
+            }
+            Shades::Fitted => {
+                (ColourMap::Sequential, self.scale.fit(finite().chain([0.0]), 0.0, pixels))
+            }
         }
-        (ColourMap::Sequential, self.scale.fit(finite().chain([0.0]), 0.0, (0.0, 1.0)))
     }
 
-    fn draw_picture(&self, svg: &mut Svg, frame: &Frame, map: ColourMap, colours: Scale) {
+    /// The coloured values as the data URI of a picture, `None` where there are none.
+    pub fn uri(&self) -> Option<String> {
         if self.values.is_empty() {
-            return;
+            return None;
         }
-        let columns = nearest_nodes(&self.x.1, frame.x);
-        let rows = nearest_nodes(&self.y.1, frame.y);
+        let (map, colours) = self.colours();
+        let (x, y) = self.scales();
+        let columns = nearest_nodes(&self.x.1, x);
+        let rows = nearest_nodes(&self.y.1, y);
         let value = |j: usize, i: usize| self.values[j * self.x.1.len() + i];
-        let unit = colours.over((0.0, 1.0));
-        let shade = |v: f64| unit.position(v).unwrap_or(f64::NAN);
+        let shade = |v: f64| colours.position(v).unwrap_or(f64::NAN);
         let pixels: Vec<f64> = rows
             .iter()
             .rev()
             .flat_map(|&j| columns.iter().map(move |&i| shade(value(j, i))))
             .collect();
-        let uri = raster::data_uri(size(&columns), size(&rows), &pixels, map);
-        picture(svg, (0.0, 0.0, frame.width, frame.height), &uri);
+        Some(raster::data_uri(size(&columns), size(&rows), &pixels, map))
     }
 
     /// The colour bar right of the plot, with its ticks and title.

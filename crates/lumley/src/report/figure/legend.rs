@@ -1,33 +1,72 @@
 //! The legend: samples and names in rows above a plot, where they hide no data.
 
+use super::curves::Curves;
 use super::frame::FONT;
 use super::series::Series;
-use super::svg::{Px, Svg};
+use super::svg::{Attributes, Px, Svg};
 use crate::report::markup;
 
 /// Height of one row.
 const ROW: f64 = 18.0;
 
-/// Draws the entries in rows of at most `width` and returns their height: the series with a name,
-/// then the shaded band if it has one.
-pub(super) fn draw(svg: &mut Svg, width: f64, series: &[Series], band: Option<&str>) -> f64 {
-    let names = series.iter().map(|s| s.name.as_str()).chain(band);
-    let cells = layout(width, names);
-    for (series, cell) in series.iter().zip(&cells) {
-        if let &Some((x, y, _)) = cell {
-            series.draw_sample(svg, x, y - 4.0);
+/// A line of the legend: what it is called, and how it looks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry<'a> {
+    name: &'a str,
+    sample: Sample<'a>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Sample<'a> {
+    Series(&'a Series),
+    Curves(&'a Curves),
+    Band,
+}
+
+impl<'a> Entry<'a> {
+    pub(super) fn of_series(series: &'a Series) -> Self {
+        Self { name: &series.name, sample: Sample::Series(series) }
+    }
+
+    pub(super) fn of_curves(curves: &'a Curves) -> Self {
+        Self { name: &curves.name, sample: Sample::Curves(curves) }
+    }
+
+    pub(super) fn of_band(name: &'a str) -> Self {
+        Self { name, sample: Sample::Band }
+    }
+
+    /// Draws the sample, 22 units wide, beside the text whose baseline is at `y`.
+    fn draw_sample(&self, svg: &mut Svg, x: f64, y: f64) {
+        match self.sample {
+            Sample::Series(series) => series.draw_sample(svg, x, y - 4.0),
+            Sample::Curves(curves) => {
+                let d = format!("M{} {}h22", Px(x), Px(y - 4.0));
+                svg.element("path", &[("class", &curves.class()), ("d", &d)]);
+            }
+            Sample::Band => {
+                let top = Px(y - 10.0);
+                let place: Attributes = &[
+                    ("class", &"band"),
+                    ("x", &Px(x)),
+                    ("y", &top),
+                    ("width", &22),
+                    ("height", &12),
+                ];
+                svg.element("rect", place);
+            }
         }
     }
-    if let (Some(_), Some(&Some((x, y, _)))) = (band, cells.last()) {
-        let size = [("x", Px(x)), ("y", Px(y - 10.0)), ("width", Px(22.0)), ("height", Px(12.0))];
-        let [a, b, c, d] = &size;
-        svg.element(
-            "rect",
-            &[("class", &"band"), (a.0, &a.1), (b.0, &b.1), (c.0, &c.1), (d.0, &d.1)],
-        );
-    }
-    for (x, y, name) in cells.iter().flatten() {
-        svg.text(x + 28.0, *y, "key", name);
+}
+
+/// Draws the entries that have a name in rows of at most `width` and returns their height.
+pub(super) fn draw(svg: &mut Svg, width: f64, entries: &[Entry]) -> f64 {
+    let cells = layout(width, entries.iter().map(|entry| entry.name));
+    for (entry, cell) in entries.iter().zip(&cells) {
+        if let &Some((x, y, name)) = cell {
+            entry.draw_sample(svg, x, y);
+            svg.text(x + 28.0, y, "key", name);
+        }
     }
     cells.iter().flatten().next_back().map_or(0.0, |(_, y, _)| y + 8.0)
 }

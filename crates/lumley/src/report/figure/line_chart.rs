@@ -2,7 +2,7 @@
 
 use super::axis::Axis;
 use super::frame::Frame;
-use super::legend;
+use super::legend::{self, Entry};
 use super::series::Series;
 use super::svg::{Px, Svg};
 use super::{Drawing, WIDTH};
@@ -26,13 +26,14 @@ pub struct LineChart {
     series: Vec<Series>,
     band: Option<(f64, f64, String)>,
     level: Option<(f64, String)>,
+    mark: Option<(f64, String)>,
     legend: bool,
 }
 
 impl LineChart {
     /// An empty chart.
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self { x, y, series: Vec::new(), band: None, level: None, legend: true }
+        Self { x, y, series: Vec::new(), band: None, level: None, mark: None, legend: true }
     }
 
     /// Adds a curve; later ones are drawn on top.
@@ -56,6 +57,13 @@ impl LineChart {
         self
     }
 
+    /// A fine vertical line at `x`, labelled at its top.
+    #[must_use]
+    pub fn mark(mut self, x: f64, label: &str) -> Self {
+        self.mark = Some((x, label.into()));
+        self
+    }
+
     /// Leaves the legend out, for panels that share one.
     #[must_use]
     pub fn without_legend(mut self) -> Self {
@@ -66,7 +74,7 @@ impl LineChart {
     /// The legend alone, to stand above panels that share it.
     pub fn legend(&self) -> Drawing {
         let mut svg = Svg::default();
-        let height = legend::draw(&mut svg, WIDTH, &self.series, self.band_name());
+        let height = legend::draw(&mut svg, WIDTH, &self.entries());
         Drawing { width: WIDTH, height, svg }
     }
 
@@ -78,11 +86,8 @@ impl LineChart {
     /// The chart at a width of its own, for panels side by side.
     pub fn draw_at(&self, width: f64, height: f64) -> Drawing {
         let mut svg = Svg::default();
-        let head = if self.legend {
-            legend::draw(&mut svg, width, &self.series, self.band_name())
-        } else {
-            0.0
-        };
+        let entries = if self.legend { self.entries() } else { Vec::new() };
+        let head = legend::draw(&mut svg, width, &entries);
         let abscissae = self.series.iter().flat_map(|s| s.x.iter().copied());
         let ordinates = self.series.iter().flat_map(|s| s.y.iter().copied());
         let x = self.x.fit(abscissae, 0.0, (0.0, 1.0));
@@ -92,13 +97,16 @@ impl LineChart {
         frame.plot(&mut svg, |svg| {
             self.draw_band(svg, &frame);
             self.draw_level(svg, &frame);
+            self.draw_mark(svg, &frame);
             self.series.iter().for_each(|s| s.draw(svg, &frame));
         });
         Drawing { width, height, svg }
     }
 
-    fn band_name(&self) -> Option<&str> {
-        self.band.as_ref().map(|(_, _, name)| name.as_str()).filter(|name| !name.is_empty())
+    /// The series, then the band.
+    fn entries(&self) -> Vec<Entry<'_>> {
+        let band = self.band.iter().map(|(_, _, name)| Entry::of_band(name));
+        self.series.iter().map(Entry::of_series).chain(band).collect()
     }
 
     fn draw_band(&self, svg: &mut Svg, frame: &Frame) {
@@ -121,5 +129,15 @@ impl LineChart {
         let Some(at) = frame.y.position(*y) else { return };
         svg.line((0.0, at), (frame.width, at), "level");
         svg.text(frame.width - 4.0, at - 5.0, "end", label);
+    }
+
+    /// The label stands on the side where there is more room.
+    fn draw_mark(&self, svg: &mut Svg, frame: &Frame) {
+        let Some((x, label)) = &self.mark else { return };
+        let Some(at) = frame.x.position(*x) else { return };
+        svg.line((at, 0.0), (at, frame.height), "level");
+        let left = at > 0.6 * frame.width;
+        let (place, class) = if left { (at - 6.0, "end") } else { (at + 6.0, "key") };
+        svg.text(place, 13.0, class, label);
     }
 }

@@ -1,25 +1,29 @@
 //! Figures: curves and pictures as SVG, written without a plotting library.
 //!
-//! A chart ([`LineChart`], [`HeatMap`]) is drawn into a [`Drawing`]; drawings are stacked or set in
+//! A chart ([`LineChart`], [`HeatMap`], [`Plan`]) is drawn into a [`Drawing`]; drawings are stacked or set in
 //! panels; with a name and a caption a drawing becomes a [`Figure`], which stands in a page or in
 //! a file of its own. Texts are in markup: `*x*` is italic, `_{F}` a subscript, `^{2}` a
 //! superscript; text from a user goes through [`literal`](crate::report::literal) first.
 
 mod axis;
 mod colour;
+mod curves;
 mod frame;
 mod heat_map;
 mod legend;
 mod line_chart;
 mod path;
+mod plan;
 mod raster;
 mod series;
 mod svg;
 mod ticks;
 
 pub use axis::Axis;
+pub use curves::Curves;
 pub use heat_map::HeatMap;
 pub use line_chart::LineChart;
+pub use plan::Plan;
 pub use series::Series;
 
 use self::frame::FONT;

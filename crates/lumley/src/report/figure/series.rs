@@ -34,6 +34,8 @@ pub(super) enum Stroke {
     Dashed,
     Marked,
     Points,
+    /// A line, and a wash between it and the foot of the plot.
+    Area,
 }
 
 /// One curve: a name for the legend, points, and a look.
@@ -88,6 +90,11 @@ impl Series {
         Self::new(name, x, y, Ink::Text, Stroke::Points)
     }
 
+    /// A thin line and a wash below it, for histograms.
+    pub fn area(name: &str, x: &[f64], y: &[f64]) -> Self {
+        Self::new(name, x, y, Ink::Text, Stroke::Area)
+    }
+
     /// The `k`-th colour of the palette instead of the text's, and the `k`-th marker.
     #[must_use]
     pub fn colour(mut self, k: usize) -> Self {
@@ -99,6 +106,9 @@ impl Series {
     pub(super) fn draw(&self, svg: &mut Svg, frame: &Frame) {
         let position = |(&x, &y)| Some((frame.x.position(x)?, frame.y.position(y)?));
         let points: Vec<_> = self.x.iter().zip(&self.y).map(position).collect();
+        if self.stroke == Stroke::Area {
+            self.draw_wash(svg, frame, &points);
+        }
         if self.stroke != Stroke::Points {
             svg.element("path", &[("class", &self.class()), ("d", &path::through(&points))]);
         }
@@ -107,6 +117,15 @@ impl Series {
                 points.iter().flatten().for_each(|&at| marker(svg, self.ink, at));
             });
         }
+    }
+
+    /// What lies below the curve; gaps are passed over.
+    fn draw_wash(&self, svg: &mut Svg, frame: &Frame, points: &[path::Point]) {
+        let drawn: Vec<path::Point> = points.iter().filter(|p| p.is_some()).copied().collect();
+        let (Some(Some(first)), Some(Some(last))) = (drawn.first(), drawn.last()) else { return };
+        let foot = Px(frame.height);
+        let d = format!("{}L{} {foot}L{} {foot}z", path::through(&drawn), Px(last.0), Px(first.0));
+        svg.element("path", &[("class", &format!("area {}", self.ink.class())), ("d", &d)]);
     }
 
     /// Draws the sample of the legend, 22 units wide, around the height `y`.

@@ -1,9 +1,11 @@
 //! The page of a report: title, key facts, contents, sections with text, tables and figures.
 
+mod player;
 mod table;
 
 use std::fmt::Write;
 
+pub(super) use player::{controls, rounded, script, spread};
 pub use table::Table;
 
 use super::figure::{self, Figure};

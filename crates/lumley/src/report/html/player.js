@@ -1,35 +1,24 @@
-// The time slider: redraws the curves of the figure before it from the frames beside it.
-(() => {
-  const player = document.querySelector('.player');
-  const frames = JSON.parse(document.getElementById('frames').textContent);
-  const plot = document.querySelector('#profiles .plot');
-  const curves = plot.querySelectorAll('path'), solid = plot.querySelector('.band');
-  const [button, slider, time] = player.querySelectorAll('button, input, output');
-  const [x0, x1, y0, y1] = plot.dataset.range.split(' ').map(Number);
-  const width = plot.width.baseVal.value, height = plot.height.baseVal.value;
-  const across = x => (x - x0) / (x1 - x0) * width;
-  const up = y => (y1 - y) / (y1 - y0) * height;
+// The time slider: calls show(k) for frame k of those that frames.t gives the times of.
+function player(frames, show) {
+  const box = document.querySelector('.player');
+  const button = box.querySelector('button'), slider = box.querySelector('[type=range]');
+  const time = box.querySelector('output');
+  const seconds = 8, last = frames.t.length - 1;
+  const span = frames.t[last] - frames.t[0] || 1;
+  const digits = Math.min(9, Math.max(0, 2 - Math.floor(Math.log10(span))));
 
-  function show(k) {
-    frames.models.forEach((model, m) => {
-      const v = model[k] || [];
-      curves[m].setAttribute('d', v.map((q, i) =>
-        (i ? 'L' : 'M') + across(frames.x[i]).toFixed(1) + ' ' + up(q * frames.unit).toFixed(1)).join(''));
-    });
-    const face = across(frames.position[k]);
-    solid.setAttribute('x', face);
-    solid.setAttribute('width', Math.max(0, width - face));
-    time.textContent = 't = ' + frames.t[k].toFixed(2) + ' s';
+  function paint(k) {
+    show(k);
+    time.textContent = 't = ' + frames.t[k].toFixed(digits) + ' s';
     slider.setAttribute('aria-valuetext', time.textContent);
   }
 
   let playing = false, start = 0;
-  const seconds = 8, last = frames.t.length - 1;
   function tick(now) {
     if (!playing) return;
     const k = Math.floor((now - start) / 1000 / seconds * last);
     slider.value = Math.min(k, last);
-    show(+slider.value);
+    paint(+slider.value);
     if (k >= last) toggle(); else requestAnimationFrame(tick);
   }
   function toggle() {
@@ -41,9 +30,9 @@
     requestAnimationFrame(tick);
   }
   button.addEventListener('click', toggle);
-  slider.addEventListener('input', () => { if (playing) toggle(); show(+slider.value); });
+  slider.addEventListener('input', () => { if (playing) toggle(); paint(+slider.value); });
   slider.max = last;
   slider.value = frames.start;
-  player.hidden = false;
-  show(frames.start);
-})();
+  box.hidden = false;
+  paint(frames.start);
+}

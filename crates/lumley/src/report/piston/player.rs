@@ -1,11 +1,11 @@
 //! The velocity profile at one time, and a slider that moves the time where scripts run.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::fields::whole_frames;
 use super::{PistonReport, Trajectory, named};
 use crate::report::figure::{Axis, Figure, LineChart, Series};
-use crate::report::html::Section;
+use crate::report::html::{Section, controls, rounded, script, spread};
 use crate::report::number::fixed;
 
 /// Most frames and most points of a curve that the slider has.
@@ -15,9 +15,6 @@ const POINTS: usize = 111;
 /// Steps of the rounded velocities within the largest one: less than a tenth of a pixel.
 const LEVELS: f64 = 4000.0;
 
-const CONTROLS: &str = "<div class=\"player\" hidden><button type=\"button\">Play</button>\
-    <input type=\"range\" min=\"0\" step=\"1\" aria-label=\"Time\"><output></output></div>";
-
 pub(super) fn section(report: &PistonReport) -> Section {
     let section = Section::new("The flow at a glance");
     let frames = whole_frames(report, &report.full);
@@ -26,10 +23,10 @@ pub(super) fn section(report: &PistonReport) -> Section {
     }
     let (start, peak) = fastest(report, frames);
     let data = frames_json(report, frames, start, peak);
-    section.raw(CONTROLS).figure(profiles(report, start, peak)).raw(&format!(
-        "<script type=\"application/json\" id=\"frames\">{data}</script>\n<script>\n{}</script>",
-        include_str!("../html/player.js"),
-    ))
+    section
+        .raw(&controls(&[]))
+        .figure(profiles(report, start, peak))
+        .raw(&script(&data, include_str!("profiles.js")))
 }
 
 /// The frame with the largest |v|, and that value; the profile to open with.
@@ -81,11 +78,11 @@ fn profile<'a>(report: &PistonReport, model: &'a Trajectory, frame: usize) -> Op
 }
 
 /// The frames as compact JSON: velocities are whole multiples of `unit`.
-fn frames_json(report: &PistonReport, frames: usize, start: usize, peak: f64) -> String {
-    let mut frames = sampled(frames, FRAMES);
+fn frames_json(report: &PistonReport, frames: usize, start: usize, peak: f64) -> Value {
+    let mut frames = spread(frames, FRAMES);
     let opening = frames.partition_point(|&frame| frame < start).min(frames.len() - 1);
     frames[opening] = start;
-    let nodes = sampled(report.fixed_grid.nodes.len(), POINTS);
+    let nodes = spread(report.fixed_grid.nodes.len(), POINTS);
     let unit = if peak > 0.0 { peak / LEVELS } else { 1.0 };
     #[expect(clippy::cast_possible_truncation, reason = "clamped to a few times LEVELS")]
     let level = |v: f64| (v / unit).clamp(-4.0 * LEVELS, 4.0 * LEVELS).round() as i32;
@@ -104,39 +101,4 @@ fn frames_json(report: &PistonReport, frames: usize, start: usize, peak: f64) ->
         "position": pick(&report.full.position),
         "models": models(report).iter().map(|(_, model, _)| values(model)).collect::<Vec<_>>(),
     })
-    .to_string()
-}
-
-/// At most `most` of the indices below `count`, evenly spread, with the first and the last.
-fn sampled(count: usize, most: usize) -> Vec<usize> {
-    let kept = count.min(most);
-    (0..kept).map(|k| k * (count - 1) / kept.saturating_sub(1).max(1)).collect()
-}
-
-/// Five significant digits; what does not exist is 0.
-fn rounded(value: f64) -> f64 {
-    if !value.is_finite() {
-        return 0.0;
-    }
-    format!("{value:.4e}").parse().expect("a printed number can be read")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn samples_keep_both_ends() {
-        assert_eq!(sampled(5, 9), [0, 1, 2, 3, 4]);
-        let some = sampled(201, 81);
-        assert_eq!((some.len(), some[0], some[80]), (81, 0, 200));
-        assert_eq!(sampled(1, 81), [0]);
-        assert!(sampled(0, 81).is_empty());
-    }
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!(rounded(0.900_812_34), 0.900_81);
-        assert_eq!(rounded(f64::NAN), 0.0);
-    }
 }

@@ -1,30 +1,35 @@
 //! Coefficients and modes as figures.
 
 use super::drawn::DrawnField;
-use super::{DrawnModes, FieldGrid, PodReport};
-use crate::report::figure::{Axis, Drawing, Figure, HeatMap, LineChart, Series};
+use super::{DrawnModes, FieldGrid};
+use crate::report::figure::{Axis, Drawing, Figure, HeatMap, LineChart, Series, WIDTH};
 use crate::report::html::Section;
 
-pub(super) fn coefficients(report: &PodReport) -> Figure {
-    let times: Vec<f64> = match report.times.as_slice() {
-        [] => (1..=report.snapshots).map(|k| k as f64).collect(),
-        times => times.to_vec(),
-    };
-    let axis = || match report.times.as_slice() {
+/// The caption of [`coefficients`].
+pub(in crate::report) const COEFFICIENTS: &str = "The first temporal coefficients, *a*_{n} = (*u*, *Φ*_{n}), \
+    (7), in the unit of the data times that of the inner product. Pairs of equal shape and shifted phase are \
+    travelling structures.";
+
+/// The first coefficients over `times`, which may be missing, in `unit`.
+pub(in crate::report) fn coefficients(
+    times: &[f64],
+    coefficients: &[Vec<f64>],
+    unit: &str,
+) -> Drawing {
+    let longest = coefficients.iter().map(Vec::len).max().unwrap_or(0);
+    let numbers: Vec<f64> = (1..=longest).map(|k| k as f64).collect();
+    let x = if times.is_empty() { &numbers } else { times };
+    let axis = || match times {
         [] => Axis::new("snapshot", "").count(),
         _ => Axis::new("time *t*", "s"),
     };
     let panel = |(n, a): (usize, &Vec<f64>)| {
-        LineChart::new(axis(), Axis::new(&format!("*a*_{{{}}}", n + 1), ""))
-            .series(Series::line("", &times, a).colour(0))
+        LineChart::new(axis(), Axis::new(&format!("*a*_{{{}}}", n + 1), unit))
+            .series(Series::line("", x, a).colour(0))
             .draw_at(346.0, 160.0)
     };
-    let panels: Vec<Drawing> =
-        report.coefficients.iter().take(DrawnModes::COUNT).enumerate().map(panel).collect();
-    let caption = "The first temporal coefficients, *a*_{n} = (*u*, *Φ*_{n}), (7), in the unit of \
-        the data times that of the inner product. Pairs of equal shape and shifted phase are \
-        travelling structures.";
-    Drawing::panels(2, &panels).figure("coefficients", caption)
+    let shown = coefficients.iter().take(DrawnModes::COUNT);
+    Drawing::panels(2, &shown.enumerate().map(panel).collect::<Vec<_>>())
 }
 
 pub(super) fn section(modes: Option<&DrawnModes>) -> Section {
@@ -53,27 +58,42 @@ fn lines(modes: &DrawnModes) -> Figure {
     Drawing::stack(&charts).figure("modes", "The first modes on the grid.")
 }
 
-/// A panel for each mode and component.
+/// Modes as pictures, the middle slice of those of three directions.
 fn pictures(modes: &DrawnModes) -> Figure {
-    let grid = modes.grid();
-    let panel = |k: usize, component: usize| {
-        let DrawnField { x, y, values } = &modes.fields[component][k];
-        let title = format!("*Φ*_{{{}}}{}", k + 1, of_component(grid, component));
-        let axis = |name: &str| Axis::new(name, "").count();
-        let map = HeatMap::new((axis("node *i*"), x), (axis("node *j*"), y), values.clone());
-        map.draw_at(350.0, map.height_of_equal_scales(350.0)).titled(&title)
+    let axis = |name: &str| Axis::new(name, "").count();
+    let map = |DrawnField { x, y, values }: &DrawnField| {
+        HeatMap::new((axis("node *i*"), x), (axis("node *j*"), y), values.clone())
     };
-    let of_mode = |k: usize| (0..grid.components).map(move |component| panel(k, component));
-    let panels: Vec<Drawing> = (0..modes.fields[0].len()).flat_map(of_mode).collect();
-    let slice = match grid.nodes[2] {
+    let slice = match modes.grid().nodes[2] {
         1 => String::new(),
         nz => format!(" Drawn is the middle slice, {} of {nz} in the third direction.", nz / 2 + 1),
     };
-    let caption = format!(
-        "The first modes on the grid, each with its own colours. Red and blue have opposite signs; \
-         the sign of a whole mode is a convention.{slice}"
-    );
-    Drawing::panels(2, &panels).figure("modes", &caption)
+    let caption = format!("{CAPTION}{slice}");
+    panels(modes, 2, |component| of_component(modes.grid(), component), map)
+        .figure("modes", &caption)
+}
+
+/// What the caption of [`panels`] begins with.
+pub(in crate::report) const CAPTION: &str = "The first modes on the grid, each with its own colours. Red and \
+    blue have opposite signs; the sign of a whole mode is a convention.";
+
+/// A panel for each mode and component, in one column or two, titled by the mode and what is `said` of the component.
+pub(in crate::report) fn panels(
+    modes: &DrawnModes,
+    columns: usize,
+    said: impl Fn(usize) -> String,
+    map: impl Fn(&DrawnField) -> HeatMap,
+) -> Drawing {
+    let width = if columns == 1 { WIDTH } else { 350.0 };
+    let panel = |k: usize, component: usize| {
+        let title = format!("*Φ*_{{{}}}{}", k + 1, said(component));
+        map(&modes.fields[component][k]).draw_equal(width, 420.0).titled(&title)
+    };
+    let components = modes.fields.len();
+    let of_mode = |k: usize| (0..components).map(move |component| (k, component));
+    let shown = modes.fields.first().map_or(0, Vec::len);
+    let all = (0..shown).flat_map(of_mode).map(|(k, component)| panel(k, component));
+    Drawing::panels(columns, &all.collect::<Vec<_>>())
 }
 
 fn of_component(grid: FieldGrid, component: usize) -> String {

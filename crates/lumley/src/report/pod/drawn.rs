@@ -1,5 +1,6 @@
 //! The part of the modes that a report draws, small whatever the size of the grid.
 
+use crate::report::html::spread;
 use faer::Mat;
 use std::ops::Range;
 
@@ -69,12 +70,12 @@ const ROWS: usize = 1 << 14;
 pub struct DrawnModes {
     grid: FieldGrid,
     /// For each component the modes.
-    pub(super) fields: Vec<Vec<DrawnField>>,
+    pub(in crate::report) fields: Vec<Vec<DrawnField>>,
 }
 
 /// One component of a mode: `values[j * x.len() + i]` at the nodes `x[i]` and `y[j]`, counted from 1.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct DrawnField {
+pub(in crate::report) struct DrawnField {
     pub x: Vec<f64>,
     pub y: Vec<f64>,
     pub values: Vec<f64>,
@@ -167,7 +168,7 @@ fn pictures<E>(
     nodes: [usize; 2],
     read: &mut impl FnMut(Range<usize>) -> Result<Mat<f64>, E>,
 ) -> Result<(), E> {
-    let [columns, lines] = nodes.map(spread);
+    let [columns, lines] = nodes.map(|count| spread(count, PICTURE));
     for line in lines.iter().map(|j| start + j * nodes[0]) {
         for part in columns.chunk_by(|a, b| a / ROWS == b / ROWS) {
             let x = read(line + part[0]..line + part[part.len() - 1] + 1)?;
@@ -181,13 +182,6 @@ fn pictures<E>(
         (field.x, field.y) = (numbers(&columns), numbers(&lines));
     }
     Ok(())
-}
-
-/// Places among `count` nodes, from the first to the last.
-fn spread(count: usize) -> Vec<usize> {
-    let shown = count.min(PICTURE);
-    let last = (shown - 1).max(1);
-    (0..shown).map(|k| (k * (count - 1) + last / 2) / last).collect()
 }
 
 #[cfg(test)]

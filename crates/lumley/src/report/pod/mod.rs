@@ -1,10 +1,11 @@
 //! The report of a decomposition of snapshots that lumley did not make.
 
-mod draw;
+pub(super) mod draw;
 mod drawn;
 #[cfg(test)]
 mod tests;
 
+pub(super) use drawn::DrawnField;
 pub use drawn::{DrawnModes, FieldGrid};
 
 use super::energy::{self, Share};
@@ -74,7 +75,7 @@ impl PodReport {
             .into_iter()
             .fold(page, |page, (value, meaning)| page.fact(&value, &meaning));
         page.section(self.what())
-            .section(energies(&shares))
+            .section(energies(&shares, ""))
             .section(self.coefficients())
             .section(draw::section(self.modes.as_ref()))
             .section(self.provenance.section())
@@ -115,13 +116,16 @@ impl PodReport {
         let section = Section::new("Temporal coefficients");
         match self.coefficients.as_slice() {
             [] => section.paragraph("There are none."),
-            _ => section.figure(draw::coefficients(self)),
+            rows => section.figure(
+                draw::coefficients(&self.times, rows, "")
+                    .figure("coefficients", draw::COEFFICIENTS),
+            ),
         }
     }
 }
 
-/// Table and spectrum of the energies.
-fn energies(shares: &[Share]) -> Section {
+/// Table and spectrum of the energies, λ in `unit`, in markup.
+pub(super) fn energies(shares: &[Share], unit: &str) -> Section {
     let row = |(i, share): (usize, &Share)| {
         vec![
             (i + 1).to_string(),
@@ -131,9 +135,13 @@ fn energies(shares: &[Share]) -> Section {
             significant(share.rms_percent, 3),
         ]
     };
+    let eigenvalue = match unit {
+        "" => "*λ*_{i}".to_string(),
+        unit => format!("*λ*_{{i}} ({unit})"),
+    };
     let head = [
         "mode *i*",
-        "*λ*_{i}",
+        &eigenvalue,
         "energy (%)",
         "cumulative *E* (%)",
         "RMS error √(1\u{a0}−\u{a0}*E*) (%)",

@@ -7,10 +7,10 @@ mod open;
 mod place;
 mod watch;
 
+use super::Task;
 use super::decompose::{algorithm, headline, summary_of, warnings};
 use super::modes::{FileModes, drawn};
-use super::pipeline::Task;
-use super::report::{columns, provenance, save};
+use super::report::{columns, save};
 use crate::Error;
 use crate::case::PodChoice;
 use crate::directory;
@@ -18,7 +18,7 @@ use crate::format::npy::SnapshotLayout;
 use crate::manifest::{MANIFEST, Manifest, memory};
 use crate::progress::Progress;
 use crate::ranks::together;
-use crate::report::{FieldGrid, PodReport};
+use crate::report::{FieldGrid, PodReport, Provenance};
 use crate::summary::{Projection, SUMMARY, Snapshots, Summary};
 use journal::FileJournal;
 use lumley_pod::{
@@ -235,7 +235,7 @@ impl PodInput {
             coefficients: columns(found.coefficients.transpose()),
             times: if opened.timed { found.times.clone() } else { Vec::new() },
             warnings: summary.warnings.clone(),
-            provenance: provenance(&manifest, String::new()),
+            provenance: Provenance::of(&manifest, String::new()),
         };
         save(folder, &report.render())?;
         manifest.complete = true;

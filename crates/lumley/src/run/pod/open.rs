@@ -6,7 +6,7 @@ use crate::Error;
 use crate::format::npy::{NpySnapshots, NpyWeights, SnapshotLayout, read_vector};
 use crate::record::{Record, Support};
 use crate::report::FieldGrid;
-use crate::run::ground::grid_product;
+use crate::run::grid_product;
 use lumley_pod::time_weights::trapezoid;
 use lumley_pod::{Identity, InnerProduct, Ranks, SnapshotSource};
 use std::path::Path;

@@ -1,14 +1,14 @@
-use super::basis::BasisFile;
-use super::decompose::whole;
 use super::ground::{Ground, is_mapped};
-use super::pipeline::{CASE, Task, begin, finish, full_order_cost, reduced_models, snapshots};
 use super::simulate::{full_order, simulate};
-use super::{probes, report};
+use super::{full_order_cost, kept, probes, reduced_models, snapshots};
 use crate::Error;
 use crate::case::{PistonCase, PistonFile, PodSection};
 use crate::directory::{DirectoryError, Workplace};
 use crate::progress::Progress;
 use crate::record::Record;
+use crate::run::decompose::whole;
+use crate::run::stages::{CASE, begin, check_is_of_a_case, finish, read_summary};
+use crate::run::{BasisFile, Task};
 use crate::summary::Summary;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -31,22 +31,22 @@ pub fn rerun(
     if task.target.canonicalize().is_ok_and(|to| source.canonicalize().is_ok_and(|s| s == to)) {
         return Err(Error::OntoItself { path: source.to_owned() });
     }
-    report::check_is_of_a_case(source)?;
+    check_is_of_a_case(source)?;
     let path = source.join(CASE);
     let (before, mut case) =
         (PistonCase::load(&path, false, &[])?, PistonCase::load(&path, false, settings)?);
     check_basis_fits(source, &before, &case)?;
-    let (made_by, old) = report::read_summary(source)?;
+    let (made_by, old) = read_summary(source)?;
     case.name = made_by.case;
     full_order(&case)?;
     let place = Workplace::claim(&task.target, task.existing)?;
-    let mut manifest = begin(&case, task, &place)?;
+    let mut manifest = begin(&case.name, &kept(&case), task, &place)?;
     copy_bases(source, &place)?;
 
     let mut work = None;
     let mut record = None;
     if compare {
-        work = Some(simulate(&case, &place, task.checkpoint, progress)?);
+        work = Some(simulate(&case, task, &place, progress)?);
         manifest.stage("full-order model", progress.end("beside the reduced models"));
         record = Some(Record::open(place.path().join("record"))?);
     } else if is_same_flow(&before, &case) && source.join("record").exists() {

@@ -1,6 +1,6 @@
-use super::Work;
 use crate::Error;
-use crate::model::{Frame, Model, Observer};
+use crate::model::{Frame, Model, Observer, Stop};
+use crate::run::Work;
 use faer::Mat;
 use lumley_pod::{InnerProduct, Kronecker};
 
@@ -25,11 +25,11 @@ impl<'a> Comparison<'a> {
 }
 
 impl<M: Model> Observer<M> for Comparison<'_> {
-    fn observe(&mut self, model: &M, snapshot: usize, _: &Work) -> Result<(), Error> {
-        if snapshot < self.full.velocities.ncols() {
+    fn observe(&mut self, model: &M, stop: Stop, _: &Work) -> Result<(), Error> {
+        if stop.number < self.full.velocities.ncols() {
             let column = self.difference.col_as_slice_mut(0);
             model.sample(&self.frame, column)?;
-            for (v, u) in column.iter_mut().zip(self.full.velocities.col(snapshot).iter()) {
+            for (v, u) in column.iter_mut().zip(self.full.velocities.col(stop.number).iter()) {
                 *v -= u;
             }
             weighted(self.product, &mut self.difference);

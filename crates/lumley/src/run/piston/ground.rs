@@ -1,12 +1,11 @@
-use super::basis::BasisFile;
 use super::compare::{Comparison, Snapshots};
 use super::simulate::{fixed, full_order};
 use crate::Error;
 use crate::case::PistonCase;
 use crate::model::{Frame, Model};
+use crate::run::{BasisFile, grid_product};
 use faer::{Mat, MatRef};
-use lumley_fem::UniformGrid;
-use lumley_pod::{Kronecker, Tridiagonal};
+use lumley_pod::Kronecker;
 use lumley_rom::{Basis, ModelChoice, PistonPhysics, PistonStart, ReducedPiston};
 use std::path::Path;
 
@@ -125,15 +124,4 @@ impl<'a> Ground<'a> {
         let coefficients = basis.project(&lifted)?;
         Ok((basis, coefficients))
     }
-}
-
-/// L2 of a field of several components on a grid.
-///
-/// # Panics
-/// Never: a mass matrix is positive definite.
-pub fn grid_product(grid: &UniformGrid, components: usize) -> Kronecker {
-    let direction = |(diagonal, beside): &(Vec<f64>, Vec<f64>)| {
-        Tridiagonal::new(diagonal, beside).expect("a mass matrix is positive definite")
-    };
-    Kronecker::new(grid.mass_factors().iter().map(direction).collect(), components)
 }

@@ -1,16 +1,15 @@
 use super::compare::Comparison;
-use super::decompose::SWEEP;
 use super::ground::{Ground, is_mapped};
-use super::parallel::in_parallel;
-use super::recorder::{Gauge, Plan, Recorder};
-use super::simulate::fixed;
-use super::{Work, advance};
+use super::simulate::fixed_and_described;
 use crate::Error;
 use crate::case::Schedule;
 use crate::directory::Workplace;
-use crate::model::{Observer, StepError};
+use crate::model::{Observer, StepError, Stop};
 use crate::progress::Progress;
-use crate::record::{Quantity, Support};
+use crate::record::Quantity;
+use crate::run::decompose::SWEEP;
+use crate::run::parallel::in_parallel;
+use crate::run::{Gauge, Plan, Recorder, Work, advance};
 use crate::summary::{Failure, Reduced};
 use lumley_rom::{Integrator, ModelChoice, ProjectionKind, ReducedError, ReducedPiston};
 use std::path::Path;
@@ -93,8 +92,10 @@ impl Ground<'_> {
         let unit = if is_mapped(choice) { "m/s" } else { "m3/2/s" };
         let names = (1..=modes).map(|n| Quantity::new(format!("a{n}"), unit)).collect();
         Plan {
-            interval: self.case.rom_schedule.interval,
-            frames: vec![(fixed(self.case), Support::Grid(self.case.grid.clone()))],
+            case: self.case.name.clone(),
+            case_file: self.case.to_toml(),
+            gathered: None,
+            frames: vec![fixed_and_described(self.case)],
             gauges: vec![
                 position,
                 velocity,
@@ -144,7 +145,7 @@ impl Ground<'_> {
             attempt.stable_step = Some(model.stable_step());
         }
         let recorder = match record {
-            Some(folder) => Some(Recorder::create(folder, self.case, self.plan(choice, modes))?),
+            Some(folder) => Some(Recorder::create(folder, self.plan(choice, modes))?),
             None => None,
         };
         let mut observer = Both { recorder, comparison: self.comparison() };
@@ -171,7 +172,7 @@ impl Ground<'_> {
 struct Nobody;
 
 impl Observer<ReducedPiston> for Nobody {
-    fn observe(&mut self, _: &ReducedPiston, _: usize, _: &Work) -> Result<(), Error> {
+    fn observe(&mut self, _: &ReducedPiston, _: Stop, _: &Work) -> Result<(), Error> {
         Ok(())
     }
 }
@@ -182,16 +183,11 @@ struct Both<'a> {
 }
 
 impl Observer<ReducedPiston> for Both<'_> {
-    fn observe(
-        &mut self,
-        model: &ReducedPiston,
-        snapshot: usize,
-        work: &Work,
-    ) -> Result<(), Error> {
+    fn observe(&mut self, model: &ReducedPiston, stop: Stop, work: &Work) -> Result<(), Error> {
         if let Some(recorder) = &mut self.recorder {
-            recorder.observe(model, snapshot, work)?;
+            recorder.observe(model, stop, work)?;
         }
-        self.comparison.as_mut().map_or(Ok(()), |c| c.observe(model, snapshot, work))
+        self.comparison.as_mut().map_or(Ok(()), |c| c.observe(model, stop, work))
     }
 }
 

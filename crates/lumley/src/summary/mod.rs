@@ -1,6 +1,11 @@
 //! `summary.json`: every number of the report, under names that others rely on.
 
+mod full_order;
+
+pub use full_order::{FullOrder, LoadStatistics, Variant};
+
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// Name of the file in a run directory.
 pub const SUMMARY: &str = "summary.json";
@@ -42,6 +47,12 @@ pub struct Summary {
     /// The full-order model at the times of the reference table.
     #[serde(skip_serializing_if = "Vec::is_empty", default)]
     pub probes: Vec<Probe>,
+    /// The loads of a flow on the boundaries, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty", default)]
+    pub loads: BTreeMap<String, LoadStatistics>,
+    /// The pressure at the first of the case's two points less that at the second, at the end, in Pa.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub pressure_difference: Option<f64>,
     /// What the reader should know, in sentences.
     pub warnings: Vec<String>,
 }
@@ -53,51 +64,6 @@ impl Summary {
     /// Never: it is plain data.
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("a summary is plain data")
-    }
-}
-
-/// The full-order model's work.
-///
-/// ```
-/// assert_eq!(lumley::summary::FullOrder::default().steps, 0);
-/// ```
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct FullOrder {
-    /// Time steps made.
-    pub steps: usize,
-    /// Time of one, in µs.
-    pub step_us: f64,
-    /// Unknowns of one.
-    pub unknowns: usize,
-    /// Newton iterations per step, in the mean.
-    pub iterations_mean: f64,
-    /// Coarser models of the same scheme, each cheaper than all that are more accurate.
-    pub variants: Vec<Variant>,
-}
-
-/// A model of another resolution.
-///
-/// ```
-/// assert_eq!(lumley::summary::Variant::default().size, 0);
-/// ```
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Variant {
-    /// Cells of the mesh of a full-order model, modes of a reduced one.
-    pub size: usize,
-    /// Time step, in s.
-    pub step: f64,
-    /// Steps to the end.
-    pub steps: usize,
-    /// Time of one, in µs.
-    pub step_us: f64,
-    /// Res (32) against the run's own full-order model, in percent.
-    pub res_percent: f64,
-}
-
-impl Variant {
-    /// Time of all steps, in ms.
-    pub fn milliseconds(&self) -> f64 {
-        self.steps as f64 * self.step_us / 1e3
     }
 }
 

@@ -1,7 +1,7 @@
-use super::recorder::Gauge;
 use crate::case::PistonCase;
 use crate::model::StepError;
 use crate::record::{Quantity, Series};
+use crate::run::Gauge;
 use crate::summary::TransferErrors;
 use lumley_fem::transfer::{Transfer, grid_error};
 use lumley_fom::Piston;

@@ -1,10 +1,10 @@
 use super::ground::Ground;
 use super::simulate::full_order;
-use super::{Work, advance};
 use crate::Error;
 use crate::case::{PistonCase, Schedule};
 use crate::model::Model;
 use crate::progress::Progress;
+use crate::run::{Work, advance};
 use crate::summary::{Reduced, Speedup, Variant};
 use lumley_rom::ModelChoice;
 

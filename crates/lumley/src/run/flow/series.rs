@@ -1,0 +1,107 @@
+//! What is recorded of a flow: its frames, and the series beside them.
+
+use super::Plan;
+use crate::case::{FlowCase, MovingChoice, RecordChoice};
+use crate::model::{FlowModel, Frame, Model};
+use crate::record::{FrameDescription, Quantity, Support};
+use crate::run::{self, Gauge};
+
+/// Snapshots and pictures that wait in memory.
+const SNAPSHOTS: usize = 16;
+const PICTURES: usize = 4;
+/// Characters of a boundary's name in that of a series.
+const LONGEST_NAME: usize = 40;
+
+/// The record on the fixed grid.
+pub(super) fn record(case: &FlowCase, choice: &RecordChoice) -> run::Plan<FlowModel> {
+    let RecordChoice { grid, transfer, .. } = choice.clone();
+    let frame = Frame::Fixed { grid: grid.clone(), transfer };
+    let described = frame.describe(Support::Grid(grid), velocity().into());
+    plan(case, (frame, described), SNAPSHOTS)
+}
+
+/// The pictures for the report.
+pub(super) fn pictures(of: &Plan) -> run::Plan<FlowModel> {
+    let frame = Frame::Picture { grid: of.picture.clone() };
+    let scalars = [Quantity::new("p", "Pa"), Quantity::new("vorticity", "1/s")];
+    let components = velocity().into_iter().chain(scalars).collect();
+    let described = frame.describe(Support::Grid(of.picture.clone()), components);
+    plan(of.case, (frame, described), PICTURES.min(of.timeline.pictures()))
+}
+
+fn velocity() -> [Quantity; 2] {
+    ["u", "v"].map(|name| Quantity::new(name, "m/s"))
+}
+
+fn plan(
+    case: &FlowCase,
+    frame: (Frame, FrameDescription),
+    gathered: usize,
+) -> run::Plan<FlowModel> {
+    let mut gauges = vec![courant(), iterations()];
+    let mut names = Names::default();
+    let boundaries = case.mesh.topology().boundaries().iter().enumerate();
+    gauges.extend(boundaries.map(|(k, boundary)| load(names.of("loads", &boundary.name), k)));
+    let moving = case.motion.iter().flat_map(|motion| &motion.boundaries);
+    gauges.extend(moving.map(|body| position(names.of("position", &body.name), body)));
+    let (name, case_file) = (case.name.clone(), case.kept().case);
+    run::Plan { case: name, case_file, gathered: Some(gathered), frames: vec![frame], gauges }
+}
+
+/// Names of series, all different and such as a record takes.
+#[derive(Default)]
+struct Names(Vec<String>);
+
+impl Names {
+    fn of(&mut self, what: &str, boundary: &str) -> String {
+        let plain =
+            |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
+        let plain: String = boundary.chars().map(plain).take(LONGEST_NAME).collect();
+        let mut name = format!("{what}-{plain}");
+        for k in 2.. {
+            if !self.0.contains(&name) {
+                break;
+            }
+            name = format!("{what}-{plain}-{k}");
+        }
+        self.0.push(name.clone());
+        name
+    }
+}
+
+fn quantities<const N: usize>(names: [(&str, &str); N]) -> Vec<Quantity> {
+    names.map(|(name, unit)| Quantity::new(name, unit)).into()
+}
+
+/// Force and moment on the boundary of this number.
+fn load(name: String, number: usize) -> Gauge<FlowModel> {
+    let entries = quantities([("fx", "N/m"), ("fy", "N/m"), ("moment", "N")]);
+    Gauge::new(name, entries, move |model: &FlowModel| {
+        let load = model.flow().loads()[number];
+        Ok(vec![load.force[0], load.force[1], load.moment])
+    })
+}
+
+/// Where a boundary is that moves.
+fn position(name: String, body: &MovingChoice) -> Gauge<FlowModel> {
+    let entries = quantities([("x", "m"), ("y", "m"), ("angle", "rad")]);
+    let function = body.function.clone();
+    Gauge::new(name, entries, move |model: &FlowModel| {
+        let at = function(model.time());
+        Ok(vec![at.translation[0], at.translation[1], at.angle])
+    })
+}
+
+/// Cells that fluid crossed in the last step.
+fn courant() -> Gauge<FlowModel> {
+    Gauge::new("cfl", quantities([("CFL", "1")]), |model: &FlowModel| {
+        Ok(vec![model.courant_number()])
+    })
+}
+
+/// Iterations of the linear solver in the last step.
+fn iterations() -> Gauge<FlowModel> {
+    Gauge::new("iterations", quantities([("GMRES", "1")]), |model: &FlowModel| {
+        Ok(vec![model.last_step().iterations as f64])
+    })
+}
