@@ -44,7 +44,7 @@ pub fn write(path: &Path, mesh: &PlanarMesh) -> Result<(), FormatError> {
     npz.finish()
 }
 
-/// Reads the mesh that [`write`] wrote, and checks it.
+/// Reads the mesh that [`write()`] wrote, and checks it.
 ///
 /// # Errors
 /// [`FormatError`], naming the file and what is wrong with it.
