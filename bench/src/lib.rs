@@ -1,1 +1,5 @@
-//! Benchmarks of lumley, one file each in `benches/`.
+//! Benchmarks of lumley, one file each in `benches/` and `src/bin/`, and the bindings to libraries beside which it is timed.
+#![deny(unsafe_code)]
+
+#[cfg(feature = "mumps")]
+pub mod mumps;

@@ -23,7 +23,7 @@ pub enum Condition {
     /// Nothing flows through and no shear acts: a symmetry line, or a wall far away.
     Slip,
     /// No traction, in the sense of the [`ViscousForm`](super::ViscousForm): an outlet. Where the fluid comes back
-    /// in, `ρ (u·n) u / 2` is taken off, without which the energy of the flow would grow (Bruneau and Fabrie
+    /// in, `ρ ((u − w)·n) u / 2` is taken off, without which the energy of the flow would grow (Bruneau and Fabrie
     /// 1994, Int. J. Numer. Methods Fluids 19, 693-705).
     TractionFree,
     /// The flow goes on at the boundary of that name, which is this one moved as a whole.

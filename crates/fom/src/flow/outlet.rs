@@ -1,5 +1,5 @@
 use super::Condition;
-use super::cells::{self, NodalFields};
+use super::cells::{self, NodalFields, Terms};
 use lumley_fem::element::{Cell, P2};
 use lumley_fem::geometry::{EdgePoint, Tabulated};
 use lumley_fem::quadrature::rule;
@@ -60,34 +60,56 @@ impl Outlet {
         self.edges.iter().map(|edge| edge.cell)
     }
 
-    /// Adds the term to the condensed matrix of a cell.
-    pub fn add(&self, cell: usize, density: f64, fields: &NodalFields<'_>, matrix: &mut [f64]) {
+    /// Adds the term to the condensed matrix and the right-hand side of a cell.
+    pub fn add(
+        &self,
+        cell: usize,
+        terms: &Terms,
+        fields: &NodalFields<'_>,
+        (matrix, right): (&mut [f64], &mut [f64]),
+    ) {
         let first = self.edges.partition_point(|edge| edge.cell < cell);
         for edge in self.edges[first..].iter().take_while(|edge| edge.cell == cell) {
-            edge.add(&self.rule, density, fields, matrix);
+            for at in &self.rule {
+                edge.add(at, terms, fields, matrix, right);
+            }
         }
     }
 }
 
 impl OutletEdge {
+    /// At a point of the edge; where Newton's method linearises, `(u·n) u` changes with both factors.
     fn add(
         &self,
-        rule: &[Tabulated<3>],
-        density: f64,
+        at: &Tabulated<3>,
+        terms: &Terms,
         fields: &NodalFields<'_>,
         matrix: &mut [f64],
+        right: &mut [f64],
     ) {
         let nodes: [Point; 3] = self.nodes.map(|node| fields.nodes[node]);
-        let wind = self.dofs.map(|dof| fields.wind[dof]);
+        let EdgePoint { normal, weight, .. } = EdgePoint::new(&nodes, at);
+        let value = |field: &[Point]| -> Point {
+            [0, 1].map(|d| at.value(&self.dofs.map(|dof| field[dof][d])))
+        };
+        let across = |u: Point| u[0] * normal[0] + u[1] * normal[1];
+        let out = across(value(fields.wind));
+        if out >= 0.0 {
+            return;
+        }
+        let base = if terms.newton { value(fields.base) } else { [0.0; 2] };
+        let factor = -0.5 * terms.density * weight;
         let rim = cells::rim(self.shared + 1);
-        for at in rule {
-            let EdgePoint { normal, weight, .. } = EdgePoint::new(&nodes, at);
-            let out = at.value(&wind.map(|w| w[0] * normal[0] + w[1] * normal[1]));
-            let factor = -0.5 * density * weight * out.min(0.0);
-            for (&i, f) in self.places.iter().zip(at.phi) {
+        for (&i, f) in self.places.iter().zip(at.phi) {
+            for c in 0..2 {
+                let row = c * self.shared + i;
+                right[row] += factor * f * base[c] * across(base);
                 for (&j, g) in self.places.iter().zip(at.phi) {
-                    for c in [0, self.shared] {
-                        matrix[(c + j) * rim + c + i] += factor * f * g;
+                    for d in 0..2 {
+                        let carried = if c == d { out } else { 0.0 };
+                        let turned = base[c] * normal[d];
+                        matrix[(d * self.shared + j) * rim + row] +=
+                            factor * f * g * (carried + turned);
                     }
                 }
             }

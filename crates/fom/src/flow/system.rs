@@ -187,11 +187,11 @@ impl System {
 
     /// What keeps fluid that comes back in at an outlet from feeding the flow.
     fn add_outlet(&mut self, terms: &Terms, fields: &NodalFields<'_>) {
-        let Self { outlet, order, rim_cells, held, .. } = self;
-        // Cells at boundaries are few.
-        for (cell, rim) in order.iter().zip(rim_cells) {
+        let Self { outlet, order, rim_cells, right_starts, held, right, .. } = self;
+        for (k, rim) in rim_cells.iter().enumerate() {
             let Some(rim) = rim else { continue };
-            outlet.add(*cell, terms.density, fields, &mut held[rim.held..]);
+            let right = &mut right[right_starts[k]..right_starts[k + 1]];
+            outlet.add(order[k], terms, fields, (&mut held[rim.held..], right));
         }
     }
 

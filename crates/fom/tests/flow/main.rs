@@ -4,5 +4,6 @@ mod conditions;
 mod exact;
 mod loads;
 mod manufactured;
+mod reference;
 mod restart;
 mod setups;

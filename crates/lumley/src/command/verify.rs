@@ -6,7 +6,7 @@ use clap::Args;
 
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// Add what takes about a minute: time accuracy of the schemes, long runs, changed parameters
+    /// Add what takes about two minutes: time accuracy of the schemes, long runs, changed parameters, the vortex street 2D-2
     #[arg(long)]
     full: bool,
 }

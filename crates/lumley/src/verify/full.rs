@@ -1,4 +1,5 @@
 use super::Tolerance::{AtMost, Relative};
+use super::flow::Benchmark;
 use super::{Row, Tolerance, res};
 use crate::Error;
 use crate::case::{Case, PistonCase};
@@ -52,6 +53,16 @@ impl<'a> Bench<'a> {
         let case = Case::parse("piston/case.toml".as_ref(), text, false, settings)?;
         let (_, summary) = run::run(&case, &self.task(name), self.progress)?;
         Ok((case.piston()?, summary))
+    }
+
+    /// A case of flow.
+    pub(super) fn flow(&mut self, benchmark: &Benchmark) -> Result<Summary, Error> {
+        let Benchmark { name, case, settings, .. } = benchmark;
+        let text = cases::find(case).map_or("", |case| case.text);
+        let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+        let path = format!("{case}/case.toml");
+        let case = Case::parse(path.as_ref(), text, false, &settings)?;
+        Ok(run::run(&case, &self.task(&name.replace('/', "-")), self.progress)?.1)
     }
 
     fn task(&self, name: &str) -> Task {

@@ -1,20 +1,22 @@
-//! The reference numbers of the piston, and what this program makes of them.
+//! The reference numbers, and what this program makes of them.
 //!
-//! Two canonical cases: A leaves the block alone (c_F = 0), B is truly coupled (c_F = 1). Everything is
-//! computed by the same stages as `lumley run`, in a directory that is removed afterwards.
+//! The piston in two canonical cases: A leaves the block alone (c_F = 0), B is truly coupled (c_F = 1). The flow past a
+//! cylinder in a channel in the benchmark's cases 2D-1 and 2D-2. Everything is computed by the same stages as `lumley run`, in a directory that is removed afterwards.
 
+mod flow;
 mod full;
 mod piston;
 
 use crate::Error;
 use crate::progress::Progress;
 use crate::summary::Summary;
+use flow::BENCHMARKS;
 use full::Bench;
 use piston::{CASES, rows};
 use std::path::Path;
 
 /// Computes the table, in runs below `folder`, and hands it over case by case. With `full`, the lines that
-/// take longer too: the accuracy of the time schemes, long runs, changed parameters.
+/// take longer too: the accuracy of the time schemes, long runs, changed parameters, 2D-2.
 ///
 /// # Errors
 /// Whatever ends a run.
@@ -38,6 +40,14 @@ pub fn table(
         }
         all.extend(lines);
     }
+    for benchmark in BENCHMARKS.iter().filter(|benchmark| full || !benchmark.full) {
+        let summary = bench.flow(benchmark)?;
+        let lines = benchmark.rows(&summary);
+        for line in &lines {
+            show(line)?;
+        }
+        all.extend(lines);
+    }
     Ok(all)
 }
 
@@ -53,7 +63,7 @@ pub fn table(
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// `A` or `B`.
+    /// `A` or `B` of the piston, `2D-1` or `2D-2`, or `dt/2` for the latter with half the step.
     pub case: &'static str,
     /// What is compared.
     pub quantity: &'static str,
