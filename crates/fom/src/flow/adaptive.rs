@@ -7,6 +7,8 @@ const SAFETY: f64 = 0.9;
 /// How much longer or shorter a step may be than the one before; BDF2 stays within its limit.
 const LARGEST_GROWTH: f64 = 1.5;
 const LARGEST_CUT: f64 = 0.3;
+/// Steps in a row that may be too long because they are the shortest: what a sudden change of the flow takes.
+const MOST_FORCED: u32 = 20;
 /// A step is made again if its error is this many times too large.
 const REFUSED: f64 = 2.0;
 
@@ -17,7 +19,7 @@ const REFUSED: f64 = 2.0;
 ///
 /// ```
 /// use lumley_fom::{TimeScheme, flow::StepControl};
-/// let control = StepControl { tolerance: 1e-3, shortest: 1e-4, longest: 0.1 };
+/// let control = StepControl { tolerance: 1e-3, shortest: 1e-4, longest: 0.1, velocity: 0.0 };
 /// assert!((control.next(0.01, 4e-3, TimeScheme::Bdf2) - 0.0045).abs() < 1e-15);
 /// assert_eq!(control.next(0.09, 0.0, TimeScheme::Bdf2), 0.1);
 /// ```
@@ -30,6 +32,10 @@ pub struct StepControl {
     pub shortest: f64,
     /// Longest step, in s.
     pub longest: f64,
+    /// Velocity that counts as large, in m/s: where the flow is slower all over, as at the beginning of a ramp, errors
+    /// are relative to this.
+    #[serde(default)]
+    pub velocity: f64,
 }
 
 impl StepControl {
@@ -37,42 +43,65 @@ impl StepControl {
     pub fn next(&self, dt: f64, error: f64, scheme: TimeScheme) -> f64 {
         let order = if scheme == TimeScheme::Bdf2 { 0.5 } else { 1.0 };
         let factor = SAFETY * (self.tolerance / error.max(f64::MIN_POSITIVE)).powf(order);
-        (dt * factor.clamp(LARGEST_CUT, LARGEST_GROWTH)).clamp(self.shortest, self.longest)
+        let next = dt * factor.clamp(LARGEST_CUT, LARGEST_GROWTH);
+        next.min(self.longest).max(self.shortest)
     }
 }
 
 impl Flow {
-    /// How long the next adaptive step would be, in s; none before the first.
+    /// How long the next adaptive step would be, in s; none before the first where none was suggested.
     pub fn wanted_step(&self) -> Option<f64> {
         self.wanted_step
     }
 
-    /// One step towards `end`, in s, no longer than `control` likes, such that the rest is whole steps of its length.
-    /// A step with too large an error is made again, shorter.
+    /// The first adaptive step shall be so long, in s; else it is the shortest.
+    pub fn suggest_step(&mut self, dt: f64) {
+        self.wanted_step = Some(dt);
+    }
+
+    /// One step towards `end`, in s, no longer than `control` likes, such that the rest is whole steps of its length;
+    /// shorter than `control` likes only to meet `end`. A step with too large an error is made again, shorter.
     ///
     /// # Errors
-    /// As [`step`](Self::step), and [`FlowError::ShortestStep`] where the shortest step is too long.
+    /// As [`step`](Self::step), and [`FlowError::ShortestStep`] where the shortest step was too long again and again.
     pub fn step_towards(&mut self, end: f64, control: &StepControl) -> Result<FlowStep, FlowError> {
         let mut wanted = self.wanted_step.unwrap_or(control.shortest);
         loop {
             let rest = end - self.time;
             let dt = rest / (rest / wanted * (1.0 - 1e-9)).ceil().max(1.0);
-            let time = self.time + dt;
             let step = self.compute(dt)?;
-            let error = step.extrapolation_error;
-            wanted = control.next(dt, error, self.parameters.scheme);
+            let error = self.error_for(control, &step);
+            let next = control.next(dt, error, self.parameters.scheme);
             // The first steps follow an impulsive start, which no extrapolation foresees.
-            let foreseen = self.steps >= 2;
-            if !foreseen || error <= REFUSED * control.tolerance {
-                self.accept(time, dt);
-                self.wanted_step = Some(if foreseen { wanted } else { dt });
-                return Ok(step);
+            let fits = self.steps < 2 || error <= REFUSED * control.tolerance;
+            let shortest = dt <= control.shortest * (1.0 + 1e-9);
+            if !fits && !shortest {
+                wanted = next;
+                continue;
             }
-            if dt <= control.shortest * (1.0 + 1e-9) {
-                let FlowStep { extrapolation_error: error, .. } = step;
+            let time = self.time + dt;
+            self.forced_steps = if fits { 0 } else { self.forced_steps + 1 };
+            if self.forced_steps > MOST_FORCED {
                 let (shortest, tolerance) = (control.shortest, control.tolerance);
                 return Err(FlowError::ShortestStep { time, shortest, error, tolerance });
             }
+            self.accept(time, dt);
+            // A step that was cut to meet `end` says nothing against longer ones.
+            self.wanted_step = Some(match fits {
+                true if self.steps <= 2 || dt < wanted => next.max(wanted),
+                _ => next,
+            });
+            return Ok(step);
+        }
+    }
+
+    /// The error of a computed step, relative to the larger of the flow's velocity and that of `control`.
+    fn error_for(&self, control: &StepControl, step: &FlowStep) -> f64 {
+        let largest = self.work.new_velocity.iter().map(|u| u[0].hypot(u[1])).fold(0.0, f64::max);
+        if control.velocity > largest {
+            step.extrapolation_error * largest / control.velocity
+        } else {
+            step.extrapolation_error
         }
     }
 }

@@ -51,8 +51,13 @@ impl Flow {
         let pressures = self.pressure.iter().flatten().flatten();
         let loads = self.loads.iter().flat_map(|l| [l.force[0], l.force[1], l.moment]);
         let optional = |dt: Option<f64>| dt.unwrap_or(0.0);
-        let scalars =
-            [self.time, optional(self.previous), self.steps as f64, optional(self.wanted_step)];
+        let scalars = [
+            self.time,
+            optional(self.previous),
+            self.steps as f64,
+            f64::from(self.forced_steps),
+            optional(self.wanted_step),
+        ];
         scalars
             .into_iter()
             .chain(vectors.flatten().flatten().copied())
@@ -67,9 +72,10 @@ impl Flow {
         let mut next = || numbers.next().expect("as many as were written");
         self.time = next();
         self.previous = Some(next()).filter(|&dt| dt > 0.0);
-        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "counts")]
         {
             self.steps = next() as u64;
+            self.forced_steps = next() as u32;
         }
         self.wanted_step = Some(next()).filter(|&dt| dt > 0.0);
         let vectors =

@@ -20,7 +20,8 @@ pub enum Condition {
     Velocity(Arc<dyn VectorField>),
     /// The fluid has the velocity of the boundary, which is zero where it does not move.
     NoSlip,
-    /// Nothing flows through and no shear acts: a symmetry line, or a wall far away.
+    /// Nothing flows through and no shear acts: a symmetry line, or a wall far away. On a curved wall the Laplacian
+    /// form leaves the shear `μ κ u` of its curvature κ; take the stress form there.
     Slip,
     /// No traction, in the sense of the [`ViscousForm`](super::ViscousForm): an outlet. Where the fluid comes back
     /// in, `ρ ((u − w)·n) u / 2` is taken off, without which the energy of the flow would grow (Bruneau and Fabrie

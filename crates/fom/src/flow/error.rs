@@ -69,9 +69,20 @@ pub enum FlowError {
         /// Its condition.
         condition: &'static str,
     },
+    /// The mesh falls apart, and a part of it has no outlet.
+    #[error(
+        "the mesh falls into {parts} parts that share no edge, and the one with cell {cell} has no traction-free boundary: \
+         join the parts, give each an outlet, or run them one by one"
+    )]
+    Parts {
+        /// Number of parts.
+        parts: usize,
+        /// A cell of the one without outlet.
+        cell: usize,
+    },
     /// More comes in than goes out, and there is no outlet.
     #[error(
-        "at t = {time} s the given velocities let {flux:e} m2/s out of the domain ({share:.2} % of what crosses its \
+        "at t = {time} s the given velocities let {flux:e} m2/s out of the domain ({share:.2} % of the speed along its \
          boundaries) and no boundary is traction-free: make one the outlet, or give velocities whose flux is zero"
     )]
     Flux {
@@ -79,7 +90,7 @@ pub enum FlowError {
         time: f64,
         /// Net outflow, in m²/s.
         flux: f64,
-        /// Its share of the flux in and out, in percent.
+        /// Its share of the speed along all boundaries, in percent.
         share: f64,
     },
     /// A given value is not a number.
@@ -119,9 +130,7 @@ pub enum FlowError {
     #[error(transparent)]
     Motion(#[from] MotionError),
     /// The linear system was not solved.
-    #[error(
-        "at t = {time} s: {source}; a smaller step makes the system easier, and so does a mesh of better quality"
-    )]
+    #[error("at t = {time} s: {source}; {}", .source.remedy())]
     Linear {
         /// When, in s.
         time: f64,

@@ -95,12 +95,12 @@ impl Flow {
         }
     }
 
-    /// What the residual of the Laplacian form leaves out, `∫ μ ∇uᵀ n`. Along a boundary with tangent t that gives the
+    /// What the residual of the Laplacian form leaves out, `∫ μ ∇uᵀ n`. Along a boundary with tangent t that holds the
     /// velocity, the slope `u_t` is known and `∇·u = 0` gives the rest: `∇uᵀ n = (u_t·n) t − (u_t·t) n`.
     fn add_transposed_gradient(&mut self) {
         for (number, boundary) in self.mesh.topology().boundaries().iter().enumerate() {
-            let gives = matches!(self.conditions[number], Condition::Velocity(_));
-            if !(gives || self.moving.contains(&number)) {
+            let condition = &self.conditions[number];
+            if matches!(condition, Condition::TractionFree | Condition::Periodic { .. }) {
                 continue;
             }
             let pivot = self.pivots[number];

@@ -114,6 +114,8 @@ pub struct Flow {
     previous: Option<f64>,
     /// Steps made.
     steps: u64,
+    /// Adaptive steps in a row that were too long and could not be shorter.
+    forced_steps: u32,
     /// What an adaptive step would be, in s.
     wanted_step: Option<f64>,
     /// At the velocity dofs, now and a step before.

@@ -31,7 +31,8 @@ pub enum FlowStart {
     Rest,
     /// With this velocity, which need not fit the boundaries: the first step makes it so.
     Velocity(Arc<dyn VectorField>),
-    /// With the creeping flow, without inertia, that the boundaries have at the start.
+    /// With the creeping flow, without inertia, that the boundaries have at the start; bodies that move are at rest in
+    /// it.
     Stokes,
 }
 
@@ -49,7 +50,7 @@ pub struct FlowSetup {
     pub start: FlowStart,
     /// How the mesh moves, if it does.
     pub motion: Option<Box<dyn Motion>>,
-    /// Whether both cores assemble and factorise; the bits are the same.
+    /// Whether all cores assemble and factorise; the bits are the same.
     pub parallel: bool,
 }
 
@@ -71,17 +72,19 @@ impl Flow {
         let space = NodalSpace::velocity(mesh.topology());
         let slides = Slides::new(&mesh, &space, &conditions);
         let unknowns = Unknowns::new(&mesh, &space, &conditions, &slides)?;
+        check_parts(&mesh, &conditions, &unknowns)?;
         let (system, pattern) = System::new(&mesh, &space, &conditions, &unknowns);
         let solver = solver(&mesh, &unknowns, &system, &pattern, parallel);
         let (dofs, cells) = (space.dofs().len(), mesh.topology().cells());
         let boundaries = mesh.topology().boundaries().len();
         let mut flow = Self {
             places: DofPlaces::new(mesh.topology(), &space),
-            given: Given::new(&mesh, &space, &unknowns),
+            given: Given::new(&mesh, &space, &unknowns, &moving),
             load_dofs: LoadDofs::new(&mesh, &space, &conditions),
             time: 0.0,
             previous: None,
             steps: 0,
+            forced_steps: 0,
             wanted_step: None,
             velocity: [vec![[0.0; 2]; dofs], vec![[0.0; 2]; dofs]],
             pressure: [vec![[0.0; 3]; cells], vec![[0.0; 3]; cells]],
@@ -174,6 +177,43 @@ fn moving(
         }
     };
     motion.map_or(Vec::new(), |motion| motion.boundaries()).into_iter().map(number).collect()
+}
+
+/// A mesh in one piece may be closed; of several each must have an outlet, for one pressure alone is set.
+fn check_parts(
+    mesh: &PlanarMesh,
+    conditions: &[Condition],
+    unknowns: &Unknowns,
+) -> Result<(), FlowError> {
+    let topology = mesh.topology();
+    let inner = topology.edges().iter();
+    let inner = inner.filter_map(|edge| Some([edge.left.cell, edge.right?.cell]));
+    let mut part: Vec<usize> = (0..topology.cells()).collect();
+    for [a, b] in inner.chain(unknowns.periodic.iter().copied()) {
+        let (a, b) = (first(&mut part, a), first(&mut part, b));
+        part[a.max(b)] = a.min(b);
+    }
+    let roots: Vec<usize> = (0..part.len()).filter(|&cell| part[cell] == cell).collect();
+    let mut open = vec![false; part.len()];
+    for (boundary, condition) in topology.boundaries().iter().zip(conditions) {
+        if matches!(condition, Condition::TractionFree) {
+            let cells = boundary.edges.iter().map(|&edge| topology.edges()[edge].left.cell);
+            cells.for_each(|cell| open[first(&mut part, cell)] = true);
+        }
+    }
+    match roots.iter().find(|&&root| !open[root]) {
+        Some(&cell) if roots.len() > 1 => Err(FlowError::Parts { parts: roots.len(), cell }),
+        _ => Ok(()),
+    }
+}
+
+/// The first cell of the part that `cell` belongs to.
+fn first(part: &mut [usize], mut cell: usize) -> usize {
+    while part[cell] != cell {
+        part[cell] = part[part[cell]];
+        cell = part[cell];
+    }
+    cell
 }
 
 fn solver(

@@ -1,5 +1,4 @@
 use super::{Flow, FlowError, Linearisation};
-use crate::TimeScheme;
 use crate::linear::LaggedStep;
 use crate::time_scheme::RateFormula;
 
@@ -38,7 +37,7 @@ impl Flow {
     /// One step of `dt`, in s.
     ///
     /// # Errors
-    /// [`FlowError`]: the flow is then half-moved and must be discarded.
+    /// [`FlowError`]: the mesh is then half-moved, but [`save`](Self::save) still writes the flow of the step before.
     pub fn step(&mut self, dt: f64) -> Result<FlowStep, FlowError> {
         let step = self.compute(dt)?;
         self.accept(self.time + dt, dt);
@@ -56,7 +55,7 @@ impl Flow {
         self.set_given(time)?;
         self.set_force(time)?;
         self.subtract_history(formula);
-        self.extrapolate(dt);
+        self.extrapolate(dt, formula);
         self.guess();
         self.solve_step(time, formula)
     }
@@ -90,9 +89,9 @@ impl Flow {
     }
 
     /// Extrapolates velocity and pressure to the end of a step: linearly with BDF2, else as they are, the paper's.
-    fn extrapolate(&mut self, dt: f64) {
-        let ratio = match (self.parameters.scheme, self.previous) {
-            (TimeScheme::Bdf2, Some(previous)) => dt / previous,
+    fn extrapolate(&mut self, dt: f64, formula: RateFormula) {
+        let ratio = match self.previous {
+            Some(previous) if formula.before != 0.0 => dt / previous,
             _ => 0.0,
         };
         let ahead = |now: f64, before: f64| now + ratio * (now - before);

@@ -76,6 +76,20 @@ pub enum LaggedError {
     Gmres(#[from] GmresError),
 }
 
+impl LaggedError {
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self {
+            Self::Singular(_) => {
+                "look for a part of the domain whose flow or pressure no condition determines"
+            }
+            Self::Gmres(_) => {
+                "a smaller step makes the system easier, and so does a mesh of better quality"
+            }
+        }
+    }
+}
+
 /// How a system was solved.
 ///
 /// ```

@@ -6,7 +6,7 @@ use lumley_fem::{MeshDescription, PlanarMesh, Point};
 use lumley_fom::TimeScheme;
 use lumley_fom::flow::{
     Condition, Flow, FlowError, FlowParameters, FlowSetup, FlowStart, Linearisation, SteadyLimits,
-    VectorField, ViscousForm,
+    StepControl, VectorField, ViscousForm,
 };
 use lumley_fom::motion::Motion;
 use std::sync::Arc;
@@ -167,6 +167,68 @@ fn a_closed_domain_levels_its_pressure_and_counts_its_flux() {
     .expect("a flow");
     let error = blocked.step(0.1).expect_err("nowhere to go").to_string();
     assert!(error.contains("no boundary is traction-free"), "{error}");
+}
+
+/// A lid that slides along its own line lets nothing through, however the cavity is turned.
+#[test]
+fn a_turned_cavity_has_no_flux() {
+    let (sin, cos) = 0.7_f64.sin_cos();
+    let turned = MeshDescription::structured(
+        [3, 3],
+        |_| false,
+        |[x, y]| [cos * x - sin * y, sin * x + cos * y],
+    );
+    let lid = given(move |_: Point, _: f64| [cos, sin]);
+    let sides = [Condition::NoSlip, Condition::NoSlip, lid, Condition::NoSlip];
+    let mesh = PlanarMesh::new(turned).expect("a square");
+    let mut flow =
+        flow(mesh, fluid(ViscousForm::Stress), sides, FlowStart::Rest, None).expect("a flow");
+    flow.step(0.1).expect("a step");
+}
+
+/// Two squares that share nothing: the pressure of each would be undetermined.
+#[test]
+fn parts_without_outlet_are_refused() {
+    let square = |x: f64| MeshDescription::structured([2, 2], |_| false, move |p| [p[0] + x, p[1]]);
+    let (mut mesh, other) = (square(0.0), square(5.0));
+    let shift = mesh.points.len();
+    mesh.points.extend(other.points);
+    mesh.quadrilaterals.extend(other.quadrilaterals.iter().map(|cell| cell.map(|k| k + shift)));
+    for (boundary, more) in mesh.boundaries.iter_mut().zip(&other.boundaries) {
+        boundary.edges.extend(more.edges.iter().map(|edge| edge.map(|k| k + shift)));
+    }
+    let mesh = PlanarMesh::new(mesh).expect("two squares");
+    let closed = [0, 1, 2, 3].map(|_| Condition::NoSlip);
+    let found = flow(mesh.clone(), fluid(ViscousForm::Stress), closed, FlowStart::Rest, None);
+    assert!(matches!(found.err(), Some(FlowError::Parts { parts: 2, cell: 0 })));
+    let open = [0, 1, 2, 3].map(|_| Condition::TractionFree);
+    flow(mesh, fluid(ViscousForm::Stress), open, FlowStart::Rest, None)
+        .expect("each has an outlet");
+}
+
+/// A ramp from rest: errors are relative to the velocity that counts.
+#[test]
+fn adaptive_steps_follow_a_ramp() {
+    let ramp = |[_, y]: Point, t: f64| [4.0 * y * (1.0 - y) * (1.5 * t).sin().powi(2), 0.0];
+    let sides = [Condition::NoSlip, Condition::TractionFree, Condition::NoSlip, given(ramp)];
+    let mut flow = flow(
+        rectangle([6, 4], [2.0, 1.0]),
+        fluid(ViscousForm::Laplacian),
+        sides,
+        FlowStart::Rest,
+        None,
+    )
+    .expect("a flow");
+    let control = StepControl { tolerance: 2e-3, shortest: 1e-4, longest: 0.1, velocity: 0.1 };
+    let mut steps = 0;
+    // The stop just after another costs a step, not the length of those that follow.
+    for end in [0.5, 0.500_01, 1.0] {
+        while flow.time() < end - 1e-12 {
+            flow.step_towards(end, &control).expect("a step");
+            steps += 1;
+        }
+    }
+    assert!(steps < 120, "{steps}");
 }
 
 #[test]

@@ -115,3 +115,27 @@ fn impulse(n: usize) -> f64 {
     flow.step(dt).expect("a step");
     -flow.loads()[0].force[0] * dt / 0.1
 }
+
+/// A body that turns in a closed ring: its nodes move along chords, which is no flux.
+#[test]
+fn a_turning_body_in_a_closed_domain() {
+    let mesh = ring(4);
+    let boundary = MovingBoundary { name: "bottom".into(), pivot: [0.0, 0.0] };
+    let motion = MeshMotion::new(&mesh, &[boundary], &MotionParameters::default());
+    let turn = |t: f64| RigidMotion { translation: [0.0; 2], angle: SPIN * t };
+    let functions: Vec<MotionFunction> = vec![Arc::new(turn)];
+    let motion = PrescribedMotion::new(motion.expect("a motion"), functions).expect("one function");
+    let mut flow = Flow::new(FlowSetup {
+        mesh,
+        parameters: fluid(ViscousForm::Stress),
+        conditions: ["bottom", "top"].map(|name| (name.into(), Condition::NoSlip)).into(),
+        start: FlowStart::Rest,
+        motion: Some(Box::new(motion)),
+        parallel: false,
+    })
+    .expect("a flow");
+    for _ in 0..3 {
+        flow.step(0.05).expect("a step");
+    }
+    assert!(flow.loads()[0].moment < 0.0, "the fluid resists");
+}

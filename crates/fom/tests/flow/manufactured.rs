@@ -68,7 +68,7 @@ fn adaptive_steps_keep_the_error() {
         let parameters =
             parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::default());
         let mut flow = enclosed(grid, parameters, Some(motion), false);
-        let control = StepControl { tolerance, shortest: 1e-4, longest: 0.2 };
+        let control = StepControl { tolerance, shortest: 1e-4, longest: 0.2, velocity: 0.0 };
         let (mut lengths, mut worst) = (Vec::new(), 0.0_f64);
         for end in [0.4, 1.0] {
             while flow.time() < end {

@@ -135,12 +135,10 @@ fn differences(flow: &Flow, plain: &Plain, now: &Instant, equations: &Equations)
         }
     }
     let held = flow.conditions().iter().zip(now.mesh.topology().boundaries()).zip(flow.loads());
-    // What the Laplacian form adds where the velocity is given is no residual; `loads` tests it.
+    // What the Laplacian form adds to its residual is no residual; `loads` tests it.
     let stress = plain.parameters.viscous_form == ViscousForm::Stress;
-    let held = held.filter(|((condition, _), _)| match condition {
-        Condition::Velocity(_) => stress,
-        condition => !matches!(condition, Condition::TractionFree),
-    });
+    let held =
+        held.filter(|((condition, _), _)| stress && !matches!(condition, Condition::TractionFree));
     let (mut lacking, mut force) = (0.0_f64, 0.0_f64);
     for ((_, boundary), found) in held {
         let expected = plain.load(now, equations, &boundary.name);

@@ -75,7 +75,7 @@ struct View {
 
 impl FlowModel {
     /// The model with these steps, recorded in no frame yet; `moves` says whether the mesh does.
-    pub fn new(flow: Flow, stepping: Stepping, moves: bool) -> Self {
+    pub fn new(mut flow: Flow, stepping: Stepping, moves: bool) -> Self {
         let (mesh, space) = (flow.mesh(), flow.space());
         let is_body = |name: &str| Bodies::new(mesh, &[name]).is_ok();
         let boundaries = mesh.topology().boundaries().iter();
@@ -85,6 +85,9 @@ impl FlowModel {
         });
         let solids = solids.collect();
         let views = RefCell::new(Vec::new());
+        if let Stepping::Adaptive { first, .. } = stepping {
+            flow.suggest_step(first);
+        }
         let last = FlowStep::default();
         Self { flow, stepping, steps: 0, last, dt: 0.0, solids, moves, views }
     }
@@ -223,7 +226,7 @@ impl Model for FlowModel {
     fn suggested_step(&self) -> Option<f64> {
         match self.stepping {
             Stepping::Fixed { .. } => None,
-            Stepping::Adaptive { first, .. } => Some(self.flow.wanted_step().unwrap_or(first)),
+            Stepping::Adaptive { .. } => self.flow.wanted_step(),
         }
     }
 

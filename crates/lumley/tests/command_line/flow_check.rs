@@ -11,7 +11,7 @@ fn check_tells_what_a_flow_would_cost() {
         ("cylinder-2d1", ["right: traction-free", "the creeping flow", "Re = 20.000", "MB"]),
         (
             "cylinder-2d2",
-            ["3200 steps of 0.0025 s", "201 snapshots on 441 x 83", "81 files", "auto"],
+            ["1600 steps of 0.005 s", "201 snapshots on 441 x 83", "81 files", "auto"],
         ),
         (
             "oscillating-cylinder",

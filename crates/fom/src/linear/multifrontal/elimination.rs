@@ -139,7 +139,7 @@ impl<T: Scalar> Columns<'_, T> {
 
     #[inline(always)]
     fn add_cell(&mut self, rows: &[u32], matrix: &[f64]) {
-        for (entries, &j) in matrix.chunks_exact(rows.len()).zip(rows) {
+        for (entries, &j) in matrix.chunks_exact(rows.len().max(1)).zip(rows) {
             let column = self.column(j as usize);
             for (&i, &a) in rows.iter().zip(entries) {
                 column[i as usize] += T::from_f64(a);

@@ -63,10 +63,22 @@ impl Instants {
     }
 }
 
+/// Share of the reference velocity that counts as a large velocity where steps follow the error.
+const REFERENCE_SHARE: f64 = 0.1;
+
 /// Through time or to the steady flow, whichever the case asks for.
 pub(super) fn march(ask: &Ask, file: &FlowFile) -> Result<March, CaseError> {
     match (&file.time, &file.steady) {
-        (Some(time), None) => unsteady(ask, time).map(March::Unsteady),
+        (Some(time), None) => {
+            let mut choice = unsteady(ask, time)?;
+            if let (Some(adaptive), Some(reference)) = (&mut choice.adaptive, &file.flow.reference)
+            {
+                // What is slow beside the reference need not be resolved.
+                adaptive.velocity =
+                    adaptive.velocity.max(REFERENCE_SHARE * reference.velocity.abs());
+            }
+            Ok(March::Unsteady(choice))
+        }
         (None, Some(steady)) => {
             let expected = "a number above 0 and below 1, such as 1e-9";
             let (tolerance, iterations) = (steady.tolerance, steady.iterations);
@@ -105,7 +117,8 @@ fn unsteady(ask: &Ask, time: &TimeSection) -> Result<TimeChoice, CaseError> {
 }
 
 fn check_adaptive(ask: &Ask, adaptive: &StepControl, step: f64) -> Result<(), CaseError> {
-    let StepControl { tolerance, shortest, longest } = *adaptive;
+    let StepControl { tolerance, shortest, longest, velocity } = *adaptive;
+    ask.not_negative("time.adaptive.velocity", velocity, "m/s")?;
     let share = "a number above 0 and below 1, such as 1e-3";
     let ok = tolerance > 0.0 && tolerance < 1.0;
     ask.that(ok, "time.adaptive.tolerance", Number(tolerance), share)?;
