@@ -85,12 +85,11 @@ impl Flow {
                 let (shortest, tolerance) = (control.shortest, control.tolerance);
                 return Err(FlowError::ShortestStep { time, shortest, error, tolerance });
             }
+            let unforeseen = self.steps < 2;
             self.accept(time, dt);
             // A step that was cut to meet `end` says nothing against longer ones.
-            self.wanted_step = Some(match fits {
-                true if self.steps <= 2 || dt < wanted => next.max(wanted),
-                _ => next,
-            });
+            let cut = dt < 0.5 * wanted && error <= control.tolerance;
+            self.wanted_step = Some(if cut || unforeseen { next.max(wanted) } else { next });
             return Ok(step);
         }
     }
