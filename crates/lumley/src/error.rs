@@ -262,7 +262,8 @@ impl Error {
             Self::Flow(
                 FlowError::Linear { .. }
                 | FlowError::NoConvergence { .. }
-                | FlowError::Diverged { .. },
+                | FlowError::Diverged { .. }
+                | FlowError::Unstable { .. },
             )
             | Self::Step(_)
             | Self::Verification { .. }

@@ -96,7 +96,7 @@ impl Flow {
 
     /// The error of a computed step, relative to the larger of the flow's velocity and that of `control`.
     fn error_for(&self, control: &StepControl, step: &FlowStep) -> f64 {
-        let largest = self.work.new_velocity.iter().map(|u| u[0].hypot(u[1])).fold(0.0, f64::max);
+        let largest = self.largest_velocity();
         if control.velocity > largest {
             step.extrapolation_error * largest / control.velocity
         } else {

@@ -1,5 +1,5 @@
 use crate::linear::LaggedError;
-use crate::motion::MotionError;
+use crate::motion::{MotionError, rounded};
 use lumley_fem::Point;
 use thiserror::Error;
 
@@ -83,7 +83,8 @@ pub enum FlowError {
     /// More comes in than goes out, and there is no outlet.
     #[error(
         "at t = {time} s the given velocities let {flux:e} m2/s out of the domain ({share:.2} % of the speed along its \
-         boundaries) and no boundary is traction-free: make one the outlet, or give velocities whose flux is zero"
+         boundaries) and no boundary is traction-free: make one the outlet, or give velocities whose flux is zero",
+        time = rounded(*time)
     )]
     Flux {
         /// When, in s.
@@ -94,7 +95,7 @@ pub enum FlowError {
         share: f64,
     },
     /// A given value is not a number.
-    #[error("{what} at ({}, {}) m and t = {time} s is ({}, {}): expected finite numbers", place[0], place[1], value[0], value[1])]
+    #[error("{what} at ({}, {}) m and t = {time} s is ({}, {}): expected finite numbers", place[0], place[1], value[0], value[1], time = rounded(*time))]
     NotFinite {
         /// What was given.
         what: String,
@@ -114,7 +115,8 @@ pub enum FlowError {
     /// An adaptive step is too long and may not be shorter.
     #[error(
         "at t = {time} s the velocity is {error:.1e} of its largest value from the extrapolated one, wanted {tolerance:.1e}, and \
-         the step is the shortest, {shortest:e} s: allow shorter steps or a larger tolerance"
+         the step is the shortest, {shortest:e} s: allow shorter steps or a larger tolerance",
+        time = rounded(*time)
     )]
     ShortestStep {
         /// When, in s.
@@ -130,7 +132,7 @@ pub enum FlowError {
     #[error(transparent)]
     Motion(#[from] MotionError),
     /// The linear system was not solved.
-    #[error("at t = {time} s: {source}; {}", .source.remedy())]
+    #[error("at t = {time} s: {source}; {}", .source.remedy(), time = rounded(*time))]
     Linear {
         /// When, in s.
         time: f64,
@@ -140,7 +142,8 @@ pub enum FlowError {
     /// Newton's method did not converge.
     #[error(
         "at t = {time} s the velocity still changes by {change:.1e} of its largest value after {iterations} iterations, \
-         wanted {wanted:.1e}: {remedy}"
+         wanted {wanted:.1e}: {remedy}",
+        time = rounded(*time)
     )]
     NoConvergence {
         /// When, in s.
@@ -155,9 +158,26 @@ pub enum FlowError {
         remedy: &'static str,
     },
     /// The velocity is not a number any more.
-    #[error("at t = {time} s the velocity is not finite: take a smaller step or a finer mesh")]
+    #[error(
+        "at t = {time} s the velocity is not finite: take a smaller step, a finer mesh or the linearisation newton",
+        time = rounded(*time)
+    )]
     Diverged {
         /// When, in s.
         time: f64,
+    },
+    /// The velocity grows, and no step foresees the next.
+    #[error(
+        "at t = {time} s the flow is unstable: in {steps} steps its largest velocity grew {growth:.1e}-fold, and no step was \
+         foreseen by those before it: take a smaller step, a motion and velocities that start smoothly, or the linearisation newton",
+        time = rounded(*time)
+    )]
+    Unstable {
+        /// When, in s.
+        time: f64,
+        /// Steps that were not foreseen, one after another.
+        steps: usize,
+        /// Largest velocity over that after the first of them.
+        growth: f64,
     },
 }

@@ -25,6 +25,7 @@ mod places;
 mod setup;
 mod slip;
 mod solve;
+mod stability;
 mod steady;
 mod step;
 mod system;
@@ -49,6 +50,7 @@ use lumley_fem::space::NodalSpace;
 use lumley_fem::{PlanarMesh, Point};
 use places::DofPlaces;
 use slip::Slides;
+use stability::Stability;
 use system::System;
 use unknowns::Unknowns;
 
@@ -116,6 +118,7 @@ pub struct Flow {
     steps: u64,
     /// Adaptive steps in a row that were too long and could not be shorter.
     forced_steps: u32,
+    stability: Stability,
     /// What an adaptive step would be, in s.
     wanted_step: Option<f64>,
     /// At the velocity dofs, now and a step before.

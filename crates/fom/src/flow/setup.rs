@@ -3,6 +3,7 @@ use super::loads::{Load, LoadDofs, edge_rule};
 use super::output::area_rules;
 use super::places::DofPlaces;
 use super::slip::Slides;
+use super::stability::Stability;
 use super::system::System;
 use super::unknowns::Unknowns;
 use super::{Condition, Flow, FlowError, FlowParameters, VectorField, Work};
@@ -85,6 +86,7 @@ impl Flow {
             previous: None,
             steps: 0,
             forced_steps: 0,
+            stability: Stability::default(),
             wanted_step: None,
             velocity: [vec![[0.0; 2]; dofs], vec![[0.0; 2]; dofs]],
             pressure: [vec![[0.0; 3]; cells], vec![[0.0; 3]; cells]],

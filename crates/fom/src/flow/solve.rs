@@ -2,7 +2,6 @@ use super::cells::{NodalFields, Terms};
 use super::unknowns::NodeUnknowns;
 use super::{Flow, FlowError, ViscousForm};
 use crate::linear::LaggedStep;
-use lumley_fem::Point;
 
 impl Flow {
     /// The terms of the equations with this weight of the new velocity in its rate, per s.
@@ -91,7 +90,13 @@ impl Flow {
         let tangents = &slides.tangents;
         system.right_side(space, pattern, tangents, &given.velocity, &mut work.right);
         let solved = self.solver.solve(&system.matrices, &work.right, &mut work.solution);
-        let solved = solved.map_err(|source| FlowError::Linear { time, source })?;
+        let solved = solved.map_err(|source| {
+            if source.is_finite() {
+                FlowError::Linear { time, source }
+            } else {
+                FlowError::Diverged { time }
+            }
+        })?;
         self.distribute(time)?;
         Ok(solved)
     }
@@ -133,11 +138,14 @@ impl Flow {
 
     /// Largest change from `work.base` to the new velocity, over the largest velocity.
     pub(super) fn change(&self) -> f64 {
-        let size = |u: &Point| u[0].hypot(u[1]);
         let work = &self.work;
         let pairs = work.new_velocity.iter().zip(&work.base);
-        let change = pairs.map(|(u, v)| size(&[u[0] - v[0], u[1] - v[1]])).fold(0.0, f64::max);
-        let largest = work.new_velocity.iter().map(size).fold(0.0, f64::max);
+        let change = pairs.map(|(u, v)| (u[0] - v[0]).hypot(u[1] - v[1])).fold(0.0, f64::max);
+        let largest = self.largest_velocity();
         if change > 0.0 { change / largest.max(f64::MIN_POSITIVE) } else { 0.0 }
+    }
+    /// Largest new velocity, in m/s.
+    pub(super) fn largest_velocity(&self) -> f64 {
+        self.work.new_velocity.iter().map(|u| u[0].hypot(u[1])).fold(0.0, f64::max)
     }
 }

@@ -40,7 +40,12 @@ impl Flow {
     /// [`FlowError`]: the mesh is then half-moved, but [`save`](Self::save) still writes the flow of the step before.
     pub fn step(&mut self, dt: f64) -> Result<FlowStep, FlowError> {
         let step = self.compute(dt)?;
-        self.accept(self.time + dt, dt);
+        let time = self.time + dt;
+        if self.parameters.linearisation != Linearisation::Newton {
+            let largest = self.largest_velocity();
+            self.stability.watch(time, step.extrapolation_error, largest)?;
+        }
+        self.accept(time, dt);
         Ok(step)
     }
 

@@ -88,6 +88,14 @@ impl LaggedError {
             }
         }
     }
+
+    /// Whether all numbers were finite.
+    pub fn is_finite(&self) -> bool {
+        match self {
+            Self::Singular(singular) => singular.pivot.is_finite(),
+            Self::Gmres(error) => !matches!(error, GmresError::NotFinite { .. }),
+        }
+    }
 }
 
 /// How a system was solved.

@@ -95,7 +95,7 @@ pub enum MotionError {
     /// A position that is not a number.
     #[error(
         "the motion of boundary \"{boundary}\" at t = {time} s is {:?} m and {} rad, expected finite numbers",
-        .motion.translation, .motion.angle
+        .motion.translation, .motion.angle, time = rounded(*time)
     )]
     NotFinite {
         /// The time, in s.
@@ -107,7 +107,8 @@ pub enum MotionError {
     },
     /// A cell that is inside out, flat or folded.
     #[error(
-        "the mesh tangled at t = {time} s in {cell}: the cell's scaled Jacobian is {quality:.3}, the determinant of its map {determinant:e} m², expected above 0: move less, take the stiffness \"distance\" or another power, a rigid zone so wide that layers keep their shape, or a larger domain"
+        "the mesh tangled at t = {time} s in {cell}: the cell's scaled Jacobian is {quality:.3}, the determinant of its map {determinant:.2e} m², expected above 0: move less, take the stiffness \"distance\" or another power, a rigid zone so wide that layers keep their shape, or a larger domain",
+        time = rounded(*time)
     )]
     Tangled {
         /// The time, in s.
@@ -120,7 +121,7 @@ pub enum MotionError {
         determinant: f64,
     },
     /// A node beyond all sense.
-    #[error("the mesh is lost at t = {time} s: {error}")]
+    #[error("the mesh is lost at t = {time} s: {error}", time = rounded(*time))]
     Lost {
         /// The time, in s.
         time: f64,
@@ -128,6 +129,11 @@ pub enum MotionError {
         #[source]
         error: MeshError,
     },
+}
+
+/// A time, in s, without the round-off of summed steps.
+pub(crate) fn rounded(time: f64) -> f64 {
+    format!("{time:.11e}").parse().unwrap_or(time)
 }
 
 impl MotionError {

@@ -18,6 +18,7 @@ mod stiffness;
 mod zone;
 
 pub use error::MotionError;
+pub(crate) use error::rounded;
 pub use follow::Motion;
 pub use mesh_motion::{MeshMotion, MovingBoundary};
 pub use parameters::MotionParameters;

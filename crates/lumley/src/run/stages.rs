@@ -39,7 +39,9 @@ pub(super) fn begin(
     task: &Task,
     place: &Workplace,
 ) -> Result<Manifest, Error> {
-    if place.resumed() && !kept.iter().all(|file| file.stands_in(place)) {
+    // Without its case, which comes last, nothing was begun.
+    let begun = place.resumed() && place.path().join(CASE).exists();
+    if begun && !kept.iter().all(|file| file.stands_in(place)) {
         return Err(Error::OtherCase { path: place.path().to_owned() });
     }
     let mut manifest = Manifest::new(name, &task.command);

@@ -34,11 +34,20 @@ impl Task {
     /// five seconds, that nobody interrupts.
     pub fn new(target: &Path, existing: Existing) -> Self {
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let command: Vec<String> = std::env::args().skip(1).collect();
+        let command: Vec<String> = std::env::args().skip(1).map(quoted).collect();
         let command = format!("lumley {}", command.join(" "));
         let target = target.components().collect();
         let checkpoint = Duration::from_secs(5);
         let interrupt = Interrupt::default();
         Self { target, existing, threads, neighbours: 1, checkpoint, command, interrupt }
     }
+}
+
+/// An argument as a shell takes it.
+fn quoted(argument: String) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=,:+@%".contains(c);
+    if !argument.is_empty() && argument.chars().all(plain) {
+        return argument;
+    }
+    format!("'{}'", argument.replace('\'', "'\\''"))
 }

@@ -176,7 +176,7 @@ fn oscillating_cylinder() {
 fn adaptive_steps() {
     let desk = Desk::new();
     let settings = [
-        "time.adaptive={ tolerance = 2e-2, shortest = 1e-3, longest = 0.05 }",
+        "time.adaptive={ tolerance = 2e-2, shortest = 1e-4, longest = 0.05 }",
         "time.end=0.5",
         "record.start=0.1",
         "record.interval=0.1",
@@ -233,6 +233,28 @@ fn a_tangled_mesh_keeps_what_was_computed() {
     let record = lumley::record::Record::open(desk.path("run.partial/record")).expect("a record");
     assert!(!record.is_empty());
     assert!(desk.path("run.partial/paraview/flow.pvd").is_file());
+}
+
+/// A step far too long for the motion stops the run, by its linear system or by its growth: no number of any size
+/// comes out.
+#[test]
+fn a_flow_that_is_unstable_is_no_result() {
+    let desk = Desk::new();
+    let fast = ["motion.boundaries.cylinder.y=\"0.2*sin(20*t)\"", "record.start=1.0"];
+    let answer = desk.quick("oscillating-cylinder", &fast, "run");
+    answer.refused(1, &["t = 1 s", "smaller step", "kept: everything up to here"]);
+    assert_eq!(desk.table("run.partial/loads.csv")[0].1.len(), 9);
+}
+
+/// What the help says can be given to a shell as it stands.
+#[cfg(unix)]
+#[test]
+fn the_command_that_goes_on_is_quoted() {
+    let desk = Desk::new();
+    let settings = ["motion.boundaries.cylinder.y=\"2*t\"", "record.start=1.0"];
+    let answer = desk.quick("oscillating-cylinder", &settings, "run");
+    answer.refused(1, &["'motion.boundaries.cylinder.y=\"2*t\"' --set record.start=1.0"]);
+    answer.refused(1, &["the mesh tangled at t = 3.5 s in cell "]);
 }
 
 /// A steady flow that is not found says so, and keeps how it went.

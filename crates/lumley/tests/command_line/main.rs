@@ -1,7 +1,9 @@
 //! The command line as people use it: in a directory of its own, by its exit code, its words and its files.
 
 mod bad_input;
+mod flow;
 mod flow_check;
+mod flow_interrupted;
 mod interrupted;
 mod pod;
 mod pod_faults;

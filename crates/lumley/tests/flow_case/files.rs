@@ -46,6 +46,41 @@ fn a_mesh_comes_from_a_file_beside_the_case() {
     refused(desk.path(), &meshed("noise.msh"), &["mesh.file", "noise.msh", ".msh file of gmsh"]);
 }
 
+/// Meshes that gmsh would write of a bad geometry: the case, its line, what is wrong and what to do.
+#[test]
+fn bad_meshes_are_refused() {
+    let changes: [(&[(&str, &str)], &[&str]); 6] = [
+        (
+            &[("Elements\n6", "Elements\n7"), ("$EndE", "7 2 2 9 9 1 2 3\n$EndE")],
+            &["cell 0 near", "cell 2 have the same corners", "remove"],
+        ),
+        (
+            &[
+                ("3 1 1 0", "3 .1 .1 0"),
+                ("Elements\n6", "Elements\n5"),
+                ("5 2 2 9 9 1 2 3\n6 2 2 9 9 1 3 4", "5 3 2 9 9 1 2 3 4"),
+            ],
+            &["cell 0 near (0.1, 0.1) m", "expected above 0", "tangled"],
+        ),
+        (&[("3 1 1 0", "3 1 0 0")], &["in the same place", "merge them"]),
+        (&[("4 1 2 4 4 4 1", "4 1 2 5 4 4 1")], &["1 edges of the rim have no name", "(0, 1)"]),
+        (&[("6 2 2 9 9 1 3 4", "6 2 2 9 9 1 3 5")], &["node 5", "bad.msh"]),
+        (&[("3 1 1 0", "3 1 1 0.5")], &["z = 0.5", "bad.msh"]),
+    ];
+    for (replaced, words) in changes {
+        let bad = replaced.iter().fold(SQUARE.to_owned(), |text, (from, to)| with(&text, from, to));
+        let desk = desk(&[("bad.msh", &bad)]);
+        refused(desk.path(), &meshed("bad.msh"), words);
+        refused(desk.path(), &meshed("bad.msh"), &["case.toml, line "]);
+    }
+    // What harms nothing is taken: cells that run clockwise, and points that no cell has.
+    let turned = with(SQUARE, "5 2 2 9 9 1 2 3", "5 2 2 9 9 1 3 2");
+    let loose = with(&with(&turned, "Nodes\n4", "Nodes\n5"), "$EndN", "5 9 9 0\n$EndN");
+    let desk = desk(&[("loose.msh", &loose)]);
+    let mesh = flow_at(&desk.path().join("case.toml"), &meshed("loose.msh")).mesh;
+    assert_eq!((mesh.topology().triangles().len(), mesh.nodes().len()), (2, 9));
+}
+
 #[test]
 fn tables_are_linear_in_time_and_constant_beyond() {
     let desk =
@@ -81,7 +116,7 @@ fn a_kept_case_stands_alone() {
 fn wrong_tables_are_refused_with_line_and_value() {
     let text = with(DUCT, "velocity = [\"y*(1 - y)*sin(t)\", 0]", "table = \"in.csv\"");
     for (table, words) in [
-        ("0,1\n", ["line 1", "three finite numbers", "\"0,1\""]),
+        ("0,1\n", ["line 1", "3 finite numbers", "\"0,1\""]),
         ("0,1,0\n0,2,0\n", ["line 2", "increases", "\"0,2,0\""]),
         ("0,1,0\n1,nan,0\n", ["line 2", "finite numbers", "\"1,nan,0\""]),
     ] {
