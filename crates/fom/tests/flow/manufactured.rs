@@ -31,6 +31,30 @@ fn orders_in_space() {
     }
 }
 
+/// The same orders where every node moves, in steps so short that their error does not show.
+#[test]
+fn orders_in_space_on_a_moving_mesh() {
+    for kind in KINDS {
+        let finest = if kind == Kind::Quadrilaterals { 32 } else { 64 };
+        let found = [finest / 2, finest].map(|n| {
+            let grid = mesh(kind, n);
+            let motion = Wobble::of(&grid, 20.0);
+            let parameters =
+                parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::default());
+            let mut flow = enclosed(grid, parameters, Some(motion), false);
+            for _ in 0..16 {
+                flow.step(5e-4).expect("a step");
+            }
+            errors(&flow)
+        });
+        for (k, expected) in [3.0, 2.0].into_iter().enumerate() {
+            let order = order(found[0][k], found[1][k]);
+            let case = format!("{kind:?} {found:?}: order {order:.2}");
+            assert!((order - expected).abs() < 0.2, "{case}, expected {expected}");
+        }
+    }
+}
+
 /// On a mesh that moves all the time: the difference to a run with very small steps.
 #[test]
 fn orders_in_time() {
