@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 /// table.flush()?;
 /// let columns = csv::read_columns(&path, |_| true)?;
 /// assert_eq!(columns[1], ("fx".to_string(), vec![2.5, 2.7]));
-/// # Ok::<(), lumley::format::FormatError>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug)]
 pub struct GrowingTable {
