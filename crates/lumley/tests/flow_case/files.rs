@@ -46,10 +46,13 @@ fn a_mesh_comes_from_a_file_beside_the_case() {
     refused(desk.path(), &meshed("noise.msh"), &["mesh.file", "noise.msh", ".msh file of gmsh"]);
 }
 
+/// What is replaced in a sound mesh, and what the error says.
+type Damage<'a> = (&'a [(&'a str, &'a str)], &'a [&'a str]);
+
 /// Meshes that gmsh would write of a bad geometry: the case, its line, what is wrong and what to do.
 #[test]
 fn bad_meshes_are_refused() {
-    let changes: [(&[(&str, &str)], &[&str]); 6] = [
+    let changes: [Damage<'_>; 6] = [
         (
             &[("Elements\n6", "Elements\n7"), ("$EndE", "7 2 2 9 9 1 2 3\n$EndE")],
             &["cell 0 near", "cell 2 have the same corners", "remove"],
