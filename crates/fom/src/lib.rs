@@ -4,6 +4,7 @@
 //! knows neither POD nor reduced models, and writes nothing to files or to the terminal.
 
 mod checkpoint;
+mod disjoint_sets;
 pub mod flow;
 pub mod linear;
 pub mod motion;

@@ -46,6 +46,15 @@ impl StepControl {
         let next = dt * factor.clamp(LARGEST_CUT, LARGEST_GROWTH);
         next.min(self.longest).max(self.shortest)
     }
+
+    /// The error of a step, relative to the larger of the flow's velocity and that which counts.
+    fn error(&self, step: &FlowStep) -> f64 {
+        if self.velocity > step.largest_velocity {
+            step.extrapolation_error * step.largest_velocity / self.velocity
+        } else {
+            step.extrapolation_error
+        }
+    }
 }
 
 impl Flow {
@@ -70,7 +79,7 @@ impl Flow {
             let rest = end - self.time;
             let dt = rest / (rest / wanted * (1.0 - 1e-9)).ceil().max(1.0);
             let step = self.compute(dt)?;
-            let error = self.error_for(control, &step);
+            let error = control.error(&step);
             let next = control.next(dt, error, self.parameters.scheme);
             // The first steps follow an impulsive start, which no extrapolation foresees.
             let fits = self.steps < 2 || error <= REFUSED * control.tolerance;
@@ -91,16 +100,6 @@ impl Flow {
             let cut = dt < 0.5 * wanted && error <= control.tolerance;
             self.wanted_step = Some(if cut || unforeseen { next.max(wanted) } else { next });
             return Ok(step);
-        }
-    }
-
-    /// The error of a computed step, relative to the larger of the flow's velocity and that of `control`.
-    fn error_for(&self, control: &StepControl, step: &FlowStep) -> f64 {
-        let largest = self.largest_velocity();
-        if control.velocity > largest {
-            step.extrapolation_error * largest / control.velocity
-        } else {
-            step.extrapolation_error
         }
     }
 }

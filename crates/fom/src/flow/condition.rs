@@ -45,6 +45,11 @@ impl Condition {
             Self::Periodic { .. } => "periodic",
         }
     }
+
+    /// Whether it holds the fluid, which then loads the boundary.
+    pub(super) fn holds(&self) -> bool {
+        !matches!(self, Self::TractionFree | Self::Periodic { .. })
+    }
 }
 
 impl fmt::Debug for Condition {

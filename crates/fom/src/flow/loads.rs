@@ -59,7 +59,7 @@ impl LoadDofs {
     pub fn new(mesh: &PlanarMesh, space: &NodalSpace, conditions: &[Condition]) -> Self {
         let mut boundaries = vec![Vec::new(); space.dofs().shared()];
         for (number, boundary) in mesh.topology().boundaries().iter().enumerate() {
-            if !matches!(conditions[number], Condition::TractionFree | Condition::Periodic { .. }) {
+            if conditions[number].holds() {
                 for dof in space.dofs().on_boundary(mesh.topology(), boundary) {
                     boundaries[dof].push(number);
                 }
@@ -99,8 +99,7 @@ impl Flow {
     /// velocity, the slope `u_t` is known and `∇·u = 0` gives the rest: `∇uᵀ n = (u_t·n) t − (u_t·t) n`.
     fn add_transposed_gradient(&mut self) {
         for (number, boundary) in self.mesh.topology().boundaries().iter().enumerate() {
-            let condition = &self.conditions[number];
-            if matches!(condition, Condition::TractionFree | Condition::Periodic { .. }) {
+            if !self.conditions[number].holds() {
                 continue;
             }
             let pivot = self.pivots[number];
@@ -176,13 +175,7 @@ impl Flow {
             (0..9).for_each(|k| add(velocity(k), mapped.gradient(at.dphi[k])));
             mapped.point
         };
-        let p: f64 = self
-            .pressure_functions(cell)
-            .values(point)
-            .iter()
-            .zip(self.pressure[0][cell])
-            .map(|(f, p)| f * p)
-            .sum();
+        let p = self.pressure_functions(cell).pressure(&self.pressure[0][cell], point);
         let viscosity = self.parameters.viscosity;
         let entry = |c: usize, d: usize| {
             viscosity * (gradient[c][d] + gradient[d][c]) - if c == d { p } else { 0.0 }

@@ -14,6 +14,21 @@ impl Flow {
         self.time
     }
 
+    /// Steps made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The last step, in s; none before the first.
+    pub fn last_step(&self) -> Option<f64> {
+        self.previous
+    }
+
+    /// Whether the mesh moves.
+    pub fn moves(&self) -> bool {
+        self.motion.is_some()
+    }
+
     /// The mesh, where it is now.
     pub fn mesh(&self) -> &PlanarMesh {
         &self.mesh

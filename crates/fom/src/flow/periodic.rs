@@ -1,4 +1,5 @@
 use super::{Condition, FlowError};
+use crate::disjoint_sets::DisjointSets;
 use lumley_fem::space::NodalSpace;
 use lumley_fem::{Boundary, PlanarMesh, Point};
 
@@ -14,23 +15,15 @@ pub(super) fn representatives(
 ) -> Result<Vec<usize>, FlowError> {
     let boundaries = mesh.topology().boundaries();
     let points = space.points(mesh);
-    let mut stands_for: Vec<usize> = (0..space.dofs().len()).collect();
+    let mut dofs = DisjointSets::new(space.dofs().len());
     for (one, condition) in boundaries.iter().zip(conditions) {
         let Condition::Periodic { with } = condition else { continue };
         let other = partner(boundaries, conditions, one, with)?;
         for (a, b) in twins(mesh, space, &points, one, other)? {
-            let (a, b) = (root(&stands_for, a), root(&stands_for, b));
-            stands_for[a.max(b)] = a.min(b);
+            dofs.join(a, b);
         }
     }
-    Ok((0..stands_for.len()).map(|dof| root(&stands_for, dof)).collect())
-}
-
-fn root(stands_for: &[usize], mut dof: usize) -> usize {
-    while stands_for[dof] != dof {
-        dof = stands_for[dof];
-    }
-    dof
+    Ok((0..space.dofs().len()).map(|dof| dofs.root(dof)).collect())
 }
 
 /// The cells on the two sides of periodic boundaries, which are neighbours.

@@ -7,7 +7,10 @@ use super::stability::Stability;
 use super::system::System;
 use super::unknowns::Unknowns;
 use super::{Condition, Flow, FlowError, FlowParameters, VectorField, Work};
-use crate::linear::{Analysis, DelayedUnknowns, GmresLimits, LaggedSolver, RenewalPolicy};
+use crate::disjoint_sets::DisjointSets;
+use crate::linear::{
+    Analysis, CellUnknowns, DelayedUnknowns, GmresLimits, LaggedSolver, RenewalPolicy,
+};
 use crate::motion::Motion;
 use faer::Par;
 use lumley_fem::PlanarMesh;
@@ -145,8 +148,7 @@ fn by_boundary(
     let boundaries = mesh.topology().boundaries();
     let mut found: Vec<Option<Condition>> = vec![None; boundaries.len()];
     for (name, condition) in conditions {
-        let place = boundaries.iter().position(|boundary| boundary.name == name);
-        let place = place.ok_or_else(|| unknown(mesh, &name))?;
+        let place = number(mesh, &name)?;
         if found[place].replace(condition).is_some() {
             return Err(FlowError::TwoConditions { boundary: name });
         }
@@ -156,9 +158,13 @@ fn by_boundary(
     pairs.map(|(boundary, found)| found.ok_or_else(|| missing(&boundary.name))).collect()
 }
 
-fn unknown(mesh: &PlanarMesh, name: &str) -> FlowError {
-    let known: Vec<&str> = mesh.topology().boundaries().iter().map(|b| b.name.as_str()).collect();
-    FlowError::UnknownBoundary { boundary: name.into(), known: known.join(", ") }
+/// Number of the boundary of that name.
+fn number(mesh: &PlanarMesh, name: &str) -> Result<usize, FlowError> {
+    let boundaries = mesh.topology().boundaries();
+    boundaries.iter().position(|boundary| boundary.name == name).ok_or_else(|| {
+        let known: Vec<&str> = boundaries.iter().map(|b| b.name.as_str()).collect();
+        FlowError::UnknownBoundary { boundary: name.into(), known: known.join(", ") }
+    })
 }
 
 /// Numbers of the boundaries that move, which do not slip.
@@ -167,9 +173,8 @@ fn moving(
     conditions: &[Condition],
     motion: Option<&dyn Motion>,
 ) -> Result<Vec<usize>, FlowError> {
-    let number = |name: &str| {
-        let place = mesh.topology().boundaries().iter().position(|boundary| boundary.name == name);
-        let place = place.ok_or_else(|| unknown(mesh, name))?;
+    let moves = |name: &str| {
+        let place = number(mesh, name)?;
         match &conditions[place] {
             Condition::NoSlip => Ok(place),
             other => {
@@ -178,7 +183,7 @@ fn moving(
             }
         }
     };
-    motion.map_or(Vec::new(), |motion| motion.boundaries()).into_iter().map(number).collect()
+    motion.map_or(Vec::new(), |motion| motion.boundaries()).into_iter().map(moves).collect()
 }
 
 /// A mesh in one piece may be closed; of several each must have an outlet, for one pressure alone is set.
@@ -188,19 +193,17 @@ fn check_parts(
     unknowns: &Unknowns,
 ) -> Result<(), FlowError> {
     let topology = mesh.topology();
-    let inner = topology.edges().iter();
-    let inner = inner.filter_map(|edge| Some([edge.left.cell, edge.right?.cell]));
-    let mut part: Vec<usize> = (0..topology.cells()).collect();
-    for [a, b] in inner.chain(unknowns.periodic.iter().copied()) {
-        let (a, b) = (first(&mut part, a), first(&mut part, b));
-        part[a.max(b)] = a.min(b);
+    let mut parts = DisjointSets::new(topology.cells());
+    for [a, b] in neighbours(mesh, unknowns) {
+        parts.join(a, b);
     }
-    let roots: Vec<usize> = (0..part.len()).filter(|&cell| part[cell] == cell).collect();
-    let mut open = vec![false; part.len()];
+    let roots: Vec<usize> =
+        (0..topology.cells()).filter(|&cell| parts.root(cell) == cell).collect();
+    let mut open = vec![false; topology.cells()];
     for (boundary, condition) in topology.boundaries().iter().zip(conditions) {
         if matches!(condition, Condition::TractionFree) {
             let cells = boundary.edges.iter().map(|&edge| topology.edges()[edge].left.cell);
-            cells.for_each(|cell| open[first(&mut part, cell)] = true);
+            cells.for_each(|cell| open[parts.root(cell)] = true);
         }
     }
     match roots.iter().find(|&&root| !open[root]) {
@@ -209,20 +212,18 @@ fn check_parts(
     }
 }
 
-/// The first cell of the part that `cell` belongs to.
-fn first(part: &mut [usize], mut cell: usize) -> usize {
-    while part[cell] != cell {
-        part[cell] = part[part[cell]];
-        cell = part[cell];
-    }
-    cell
+/// Pairs of cells that share an edge, or would if periodic boundaries were glued.
+fn neighbours(mesh: &PlanarMesh, unknowns: &Unknowns) -> impl Iterator<Item = [usize; 2]> {
+    let inner = mesh.topology().edges().iter();
+    let inner = inner.filter_map(|edge| Some([edge.left.cell, edge.right?.cell]));
+    inner.chain(unknowns.periodic.iter().copied())
 }
 
 fn solver(
     mesh: &PlanarMesh,
     unknowns: &Unknowns,
     system: &System,
-    pattern: &crate::linear::CellUnknowns,
+    pattern: &CellUnknowns,
     parallel: bool,
 ) -> LaggedSolver {
     let order = system.order();
@@ -234,12 +235,8 @@ fn solver(
         .enumerate()
         .filter_map(|(k, &cell)| Some([unknowns.pressures[cell]?, k]))
         .collect();
-    let inner = mesh.topology().edges().iter();
-    let inner = inner.filter_map(|edge| Some([edge.left.cell, edge.right?.cell]));
-    let neighbours: Vec<[usize; 2]> = inner
-        .chain(unknowns.periodic.iter().copied())
-        .map(|cells| cells.map(|cell| rank[cell]))
-        .collect();
+    let neighbours: Vec<[usize; 2]> =
+        neighbours(mesh, unknowns).map(|cells| cells.map(|cell| rank[cell])).collect();
     let delayed = DelayedUnknowns { unknowns: &pressures, neighbours: &neighbours };
     let analysis = Analysis::new(pattern.clone(), &centroids, &delayed);
     let limits = GmresLimits { tolerance: LINEAR_TOLERANCE, ..GmresLimits::default() };

@@ -136,16 +136,21 @@ impl Flow {
         self.work.new_pressure.iter_mut().for_each(|p| p[0] -= level / total);
     }
 
-    /// Largest change from `work.base` to the new velocity, over the largest velocity.
-    pub(super) fn change(&self) -> f64 {
+    /// How far the new velocity is from `work.base`.
+    pub(super) fn change(&self) -> Change {
         let work = &self.work;
         let pairs = work.new_velocity.iter().zip(&work.base);
         let change = pairs.map(|(u, v)| (u[0] - v[0]).hypot(u[1] - v[1])).fold(0.0, f64::max);
-        let largest = self.largest_velocity();
-        if change > 0.0 { change / largest.max(f64::MIN_POSITIVE) } else { 0.0 }
+        let largest = work.new_velocity.iter().map(|u| u[0].hypot(u[1])).fold(0.0, f64::max);
+        let share = if change > 0.0 { change / largest.max(f64::MIN_POSITIVE) } else { 0.0 };
+        Change { share, largest }
     }
-    /// Largest new velocity, in m/s.
-    pub(super) fn largest_velocity(&self) -> f64 {
-        self.work.new_velocity.iter().map(|u| u[0].hypot(u[1])).fold(0.0, f64::max)
-    }
+}
+
+/// A change of the velocity.
+pub(super) struct Change {
+    /// The largest one over the largest velocity.
+    pub share: f64,
+    /// The largest velocity, in m/s.
+    pub largest: f64,
 }

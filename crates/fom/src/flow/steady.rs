@@ -70,7 +70,7 @@ impl Flow {
             }
             let terms = self.terms(0.0, change < NEWTON_FROM);
             report.work.count(self.solve(&terms, time)?);
-            change = self.change();
+            change = self.change().share;
             report.changes.push(change);
             observe(report.changes.len(), change);
             self.work.base.copy_from_slice(&self.work.new_velocity);

@@ -1,3 +1,4 @@
+use super::solve::Change;
 use super::{Flow, FlowError, Linearisation};
 use crate::linear::LaggedStep;
 use crate::time_scheme::RateFormula;
@@ -23,6 +24,8 @@ pub struct FlowStep {
     /// How far the new velocity is from the extrapolated one, over the largest velocity: what an adaptive step
     /// keeps small.
     pub extrapolation_error: f64,
+    /// The largest velocity, in m/s.
+    pub largest_velocity: f64,
 }
 
 impl FlowStep {
@@ -42,8 +45,7 @@ impl Flow {
         let step = self.compute(dt)?;
         let time = self.time + dt;
         if self.parameters.linearisation != Linearisation::Newton {
-            let largest = self.largest_velocity();
-            self.stability.watch(time, step.extrapolation_error, largest)?;
+            self.stability.watch(time, step.extrapolation_error, step.largest_velocity)?;
         }
         self.accept(time, dt);
         Ok(step)
@@ -116,8 +118,8 @@ impl Flow {
         let linearisation = self.parameters.linearisation;
         let terms = self.terms(formula.new, linearisation != Linearisation::Extrapolation);
         step.count(self.solve(&terms, time)?);
-        let mut change = self.change();
-        step.extrapolation_error = change;
+        let Change { share: mut change, largest } = self.change();
+        (step.extrapolation_error, step.largest_velocity) = (change, largest);
         while linearisation == Linearisation::Newton && change > NEWTON_TOLERANCE {
             if step.systems == NEWTON_ITERATIONS {
                 return Err(FlowError::NoConvergence {
@@ -130,7 +132,7 @@ impl Flow {
             }
             self.work.base.copy_from_slice(&self.work.new_velocity);
             step.count(self.solve(&terms, time)?);
-            change = self.change();
+            Change { share: change, largest: step.largest_velocity } = self.change();
         }
         Ok(step)
     }

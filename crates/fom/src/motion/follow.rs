@@ -1,4 +1,4 @@
-use super::{MotionError, PrescribedMotion};
+use super::MotionError;
 use lumley_fem::{PlanarMesh, Point};
 
 /// How the nodes of a flow's mesh move in time.
@@ -35,19 +35,4 @@ pub trait Motion: Send + Sync {
 
     /// Where the pivot of the k-th of them is, in m.
     fn pivot(&self, k: usize) -> Point;
-}
-
-impl Motion for PrescribedMotion {
-    fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), MotionError> {
-        PrescribedMotion::carry(self, time, mesh)
-    }
-
-    fn boundaries(&self) -> Vec<&str> {
-        self.motion().boundaries().map(|boundary| boundary.name.as_str()).collect()
-    }
-
-    fn pivot(&self, k: usize) -> Point {
-        let boundary = self.motion().boundaries().nth(k).expect("a boundary that moves");
-        [0, 1].map(|d| boundary.pivot[d] + self.positions()[k].translation[d])
-    }
 }

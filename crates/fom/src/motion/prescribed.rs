@@ -1,5 +1,5 @@
-use super::{MeshMotion, MotionError, RigidMotion};
-use lumley_fem::PlanarMesh;
+use super::{MeshMotion, Motion, MotionError, RigidMotion};
+use lumley_fem::{PlanarMesh, Point};
 use std::fmt;
 use std::sync::Arc;
 
@@ -54,16 +54,24 @@ impl PrescribedMotion {
     pub fn positions(&self) -> &[RigidMotion] {
         &self.positions
     }
+}
 
-    /// Moves the mesh to where the functions want it at a time, in s. Allocates nothing.
-    ///
-    /// # Errors
-    /// As [`MeshMotion::carry`].
-    pub fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), MotionError> {
+impl Motion for PrescribedMotion {
+    /// Allocates nothing; errors as [`MeshMotion::carry`].
+    fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), MotionError> {
         for (position, function) in self.positions.iter_mut().zip(&self.functions) {
             *position = function(time);
         }
         self.motion.carry(&self.positions, time, mesh)
+    }
+
+    fn boundaries(&self) -> Vec<&str> {
+        self.motion.boundaries().map(|boundary| boundary.name.as_str()).collect()
+    }
+
+    fn pivot(&self, k: usize) -> Point {
+        let boundary = self.motion.boundaries().nth(k).expect("a boundary that moves");
+        [0, 1].map(|d| boundary.pivot[d] + self.positions[k].translation[d])
     }
 }
 

@@ -4,7 +4,7 @@ use crate::{Outcome, disc, disc_motion, moving};
 use lumley_fem::generate::Channel;
 use lumley_fem::{MeshDescription, MeshError, PlanarMesh};
 use lumley_fom::motion::{
-    MeshMotion, MotionError, MotionParameters, PrescribedMotion, RigidMotion, Stiffness,
+    MeshMotion, Motion, MotionError, MotionParameters, PrescribedMotion, RigidMotion, Stiffness,
 };
 use std::sync::Arc;
 

@@ -4,7 +4,7 @@ use crate::counting::allocations;
 use crate::{Outcome, disc, disc_motion, moving};
 use lumley_fem::{PlanarMesh, Point};
 use lumley_fom::motion::{
-    MeshMotion, MotionParameters, MovingBoundary, PrescribedMotion, RigidMotion, Stiffness,
+    MeshMotion, Motion, MotionParameters, MovingBoundary, PrescribedMotion, RigidMotion, Stiffness,
 };
 use std::sync::Arc;
 

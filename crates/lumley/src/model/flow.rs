@@ -25,14 +25,8 @@ use std::io::{self, Read, Write};
 pub struct FlowModel {
     flow: Flow,
     stepping: Stepping,
-    /// Steps made.
-    steps: u64,
     last: FlowStep,
-    /// The last step, in s.
-    dt: f64,
     solids: Vec<Solid>,
-    /// Whether the mesh moves.
-    moves: bool,
     views: RefCell<Vec<View>>,
 }
 
@@ -74,8 +68,8 @@ struct View {
 }
 
 impl FlowModel {
-    /// The model with these steps, recorded in no frame yet; `moves` says whether the mesh does.
-    pub fn new(mut flow: Flow, stepping: Stepping, moves: bool) -> Self {
+    /// The model with these steps, recorded in no frame yet.
+    pub fn new(mut flow: Flow, stepping: Stepping) -> Self {
         let (mesh, space) = (flow.mesh(), flow.space());
         let is_body = |name: &str| Bodies::new(mesh, &[name]).is_ok();
         let boundaries = mesh.topology().boundaries().iter();
@@ -89,7 +83,7 @@ impl FlowModel {
             flow.suggest_step(first);
         }
         let last = FlowStep::default();
-        Self { flow, stepping, steps: 0, last, dt: 0.0, solids, moves, views }
+        Self { flow, stepping, last, solids, views }
     }
 
     /// Makes the frame on `grid` known: [`Frame::Fixed`], or for a picture [`Frame::Picture`].
@@ -127,16 +121,6 @@ impl FlowModel {
         &mut self.flow
     }
 
-    /// Steps made.
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// Whether the mesh moves.
-    pub fn moves(&self) -> bool {
-        self.moves
-    }
-
     /// What the last step was like.
     pub fn last_step(&self) -> &FlowStep {
         &self.last
@@ -144,7 +128,7 @@ impl FlowModel {
 
     /// Cells that fluid crossed in the last step, at most: the Courant number.
     pub fn courant_number(&self) -> f64 {
-        self.flow.courant_number(self.dt)
+        self.flow.courant_number(self.flow.last_step().unwrap_or(0.0))
     }
 
     /// Names of the boundaries that go round a body.
@@ -155,12 +139,10 @@ impl FlowModel {
     /// Makes a step of the flow and adds it to the report.
     fn count(
         &mut self,
-        dt: f64,
         report: &mut StepReport,
         step: impl FnOnce(&mut Flow) -> Result<FlowStep, FlowError>,
     ) -> Result<(), FlowError> {
-        (self.last, self.dt) = (step(&mut self.flow)?, dt);
-        self.steps += 1;
+        self.last = step(&mut self.flow)?;
         report.iterations += self.last.iterations;
         report.renewals += self.last.renewals;
         Ok(())
@@ -177,7 +159,7 @@ impl View {
     /// The velocity, and for a picture pressure and vorticity behind it.
     fn sample(&mut self, model: &FlowModel, out: &mut [f64]) -> Result<(), TransferError> {
         let flow = &model.flow;
-        if !self.placed || model.moves {
+        if !self.placed || flow.moves() {
             self.transfer.update(flow.mesh());
             self.placed = true;
         }
@@ -201,7 +183,7 @@ impl Model for FlowModel {
     fn time(&self) -> f64 {
         match self.stepping {
             // Without the round-off of summed steps.
-            Stepping::Fixed { step } => self.steps as f64 * step,
+            Stepping::Fixed { step } => self.flow.steps() as f64 * step,
             Stepping::Adaptive { .. } => self.flow.time(),
         }
     }
@@ -209,14 +191,12 @@ impl Model for FlowModel {
     fn step(&mut self, dt: f64) -> Result<StepReport, StepError> {
         let mut report = StepReport::default();
         match self.stepping {
-            Stepping::Fixed { .. } => self.count(dt, &mut report, |flow| flow.step(dt))?,
+            Stepping::Fixed { .. } => self.count(&mut report, |flow| flow.step(dt))?,
             // What the error refuses is made in shorter steps.
             Stepping::Adaptive { control, .. } => {
                 let end = self.flow.time() + dt;
                 while self.flow.time() < end - 1e-9 * dt {
-                    let so_far = self.flow.time();
-                    self.count(0.0, &mut report, |flow| flow.step_towards(end, &control))?;
-                    self.dt = self.flow.time() - so_far;
+                    self.count(&mut report, |flow| flow.step_towards(end, &control))?;
                 }
             }
         }
@@ -253,15 +233,11 @@ impl Model for FlowModel {
     }
 
     fn save(&self, to: &mut dyn Write) -> io::Result<()> {
-        to.write_all(&self.steps.to_le_bytes())?;
         self.flow.save(to)
     }
 
     fn restore(&mut self, from: &mut dyn Read) -> io::Result<()> {
-        let mut steps = [0; 8];
-        from.read_exact(&mut steps)?;
         self.flow.restore(from).map_err(io::Error::other)?;
-        self.steps = u64::from_le_bytes(steps);
         for view in self.views.get_mut() {
             view.placed = false;
         }

@@ -2,6 +2,7 @@
 
 use super::DelayedUnknowns;
 use super::dissection::Dissection;
+use crate::disjoint_sets::DisjointSets;
 
 /// The unknowns that each subdomain leaves to the whole that it is a half of.
 ///
@@ -65,7 +66,7 @@ fn edges_by_subdomain(
 
 /// Sets of edge-connected cells, each with the unknown that stands for it.
 struct Components {
-    parent: Vec<usize>,
+    sets: DisjointSets,
     unknown: Vec<Option<u32>>,
     cells: std::collections::HashMap<u32, usize>,
 }
@@ -79,25 +80,15 @@ impl Components {
             unknown[ranks[cell]].get_or_insert(u as u32);
             cells.insert(u as u32, ranks[cell]);
         }
-        Self { parent: (0..ranks.len()).collect(), unknown, cells }
+        Self { sets: DisjointSets::new(ranks.len()), unknown, cells }
     }
 
     fn cell_of(&self, unknown: u32) -> Option<usize> {
         self.cells.get(&unknown).copied()
     }
 
-    fn root(&mut self, mut cell: usize) -> usize {
-        while self.parent[cell] != cell {
-            self.parent[cell] = self.parent[self.parent[cell]];
-            cell = self.parent[cell];
-        }
-        cell
-    }
-
     fn join(&mut self, a: usize, b: usize) {
-        let (a, b) = (self.root(a), self.root(b));
-        let (first, second) = (a.min(b), a.max(b));
-        self.parent[second] = first;
+        let [first, second] = self.sets.join(a, b);
         self.unknown[first] = self.unknown[first].or(self.unknown[second]);
     }
 
@@ -106,7 +97,7 @@ impl Components {
         let mut unknowns: Vec<u32> = cells
             .iter()
             .filter_map(|&cell| {
-                let root = self.root(cell);
+                let root = self.sets.root(cell);
                 self.unknown[root]
             })
             .collect();

@@ -27,7 +27,7 @@ pub(super) use check::check;
 use super::PodChoice;
 use lumley_fem::transfer::Transfer;
 use lumley_fem::{PlanarMesh, Point, UniformGrid};
-use lumley_fom::flow::{Condition, FlowParameters, SteadyLimits, VectorField};
+use lumley_fom::flow::{Condition, FlowParameters, Load, SteadyLimits, VectorField};
 use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -129,8 +129,7 @@ impl March {
 ///
 /// ```
 /// let reference = lumley::case::Reference { velocity: 0.2, length: 0.1, density: 1.0 };
-/// let load = lumley_fom::flow::Load { force: [1e-3, 0.0], moment: 0.0 };
-/// let [drag, _] = load.coefficients(reference.density, reference.velocity, reference.length);
+/// let [drag, _] = reference.coefficients([1e-3, 0.0]);
 /// assert!((drag - 0.5).abs() < 1e-15);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,9 +143,10 @@ pub struct Reference {
 }
 
 impl Reference {
-    /// The force `ρ U² L/2` whose coefficient is one, in N for each m of span.
-    pub fn force(&self) -> f64 {
-        0.5 * self.density * self.velocity * self.velocity * self.length
+    /// The coefficients of a force, in N for each m of span.
+    pub fn coefficients(&self, force: Point) -> Point {
+        let load = Load { force, moment: 0.0 };
+        load.coefficients(self.density, self.velocity, self.length)
     }
 }
 

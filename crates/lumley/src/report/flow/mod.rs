@@ -63,11 +63,7 @@ pub struct FlowReport {
 impl FlowReport {
     /// The page and its figures.
     pub fn render(&self) -> Report {
-        let page = Page::new(&literal(&self.name), &self.summary());
-        let page = self
-            .facts()
-            .into_iter()
-            .fold(page, |page, (value, meaning)| page.fact(&value, &meaning));
+        let page = Page::new(&literal(&self.name), &self.summary()).facts(self.facts());
         let glance = self
             .warnings
             .iter()

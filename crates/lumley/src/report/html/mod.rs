@@ -65,6 +65,12 @@ impl Page {
         self
     }
 
+    /// Adds key numbers, each with what it is.
+    #[must_use]
+    pub fn facts(self, facts: impl IntoIterator<Item = (String, String)>) -> Self {
+        facts.into_iter().fold(self, |page, (value, meaning)| page.fact(&value, &meaning))
+    }
+
     /// Adds a section.
     #[must_use]
     pub fn section(mut self, section: Section) -> Self {

@@ -66,11 +66,7 @@ pub struct PistonReport {
 impl PistonReport {
     /// The page and its figures.
     pub fn render(&self) -> Report {
-        let page = Page::new(&literal(&self.name), &self.summary());
-        let page = self
-            .facts()
-            .into_iter()
-            .fold(page, |page, (value, meaning)| page.fact(&value, &meaning));
+        let page = Page::new(&literal(&self.name), &self.summary()).facts(self.facts());
         page.section(player::section(self))
             .section(model::section(self))
             .section(motion::section(self))

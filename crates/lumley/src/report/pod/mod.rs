@@ -70,10 +70,7 @@ impl PodReport {
         let shares = energy::shares(&self.eigenvalues, self.total_energy);
         let page =
             Page::new(&literal(&self.source), "Proper orthogonal decomposition of snapshots.");
-        let page = self
-            .facts(&shares)
-            .into_iter()
-            .fold(page, |page, (value, meaning)| page.fact(&value, &meaning));
+        let page = page.facts(self.facts(&shares));
         page.section(self.what())
             .section(energies(&shares, ""))
             .section(self.coefficients())

@@ -60,7 +60,7 @@ impl Instruments {
         report: &StepReport,
         dt: f64,
     ) -> Result<(), FormatError> {
-        if !model.steps().is_multiple_of(self.every) {
+        if !model.flow().steps().is_multiple_of(self.every) {
             return Ok(());
         }
         let time = crate::model::Model::time(model);
@@ -78,7 +78,7 @@ impl Instruments {
         for load in model.flow().loads() {
             row.extend([load.force[0], load.force[1], load.moment]);
             if let Some(reference) = reference {
-                row.extend(load.force.map(|force| force / reference.force()));
+                row.extend(reference.coefficients(load.force));
             }
         }
         self.loads.row(row)?;

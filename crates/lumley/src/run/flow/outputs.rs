@@ -121,7 +121,7 @@ fn loads(model: &FlowModel, reference: Option<&Reference>) -> String {
         let name = &boundary.name;
         match reference {
             Some(reference) => {
-                let [cd, cl] = load.force.map(|force| force / reference.force());
+                let [cd, cl] = reference.coefficients(load.force);
                 format!(", {name} Cd {cd:.3} Cl {cl:.3}")
             }
             None => format!(", {name} F = ({:.3e}, {:.3e}) N/m", load.force[0], load.force[1]),

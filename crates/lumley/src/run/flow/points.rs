@@ -69,7 +69,7 @@ impl Points {
 
     /// Finds the points again in a mesh that moves.
     fn follow(&mut self, model: &FlowModel) {
-        if model.moves() {
+        if model.flow().moves() {
             let mesh = model.flow().mesh();
             self.locator.update(mesh);
             for (found, point) in self.found.iter_mut().zip(&self.places) {

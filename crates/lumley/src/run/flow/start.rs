@@ -25,7 +25,7 @@ pub fn planar_flow(case: &FlowCase, threads: usize) -> Result<FlowModel, Error> 
     };
     let flow = Flow::new(setup).map_err(Error::Flow)?;
     let time = case.march.unsteady().copied();
-    Ok(FlowModel::new(flow, stepping(time), case.motion.is_some()))
+    Ok(FlowModel::new(flow, stepping(time)))
 }
 
 fn stepping(time: Option<TimeChoice>) -> Stepping {

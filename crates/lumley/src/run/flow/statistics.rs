@@ -78,14 +78,20 @@ fn statistics(
     let periods = Periods::of(&lift);
     let window = periods.window().unwrap_or(lift.last_half());
     let (d, l) = (drag.statistics(window), lift.statistics(window));
-    let coefficient = |force: f64| case.reference.map(|reference| force / reference.force());
+    let coefficients = |drag: f64, lift: f64| {
+        let found = case.reference.map(|reference| reference.coefficients([drag, lift]));
+        [0, 1].map(|d| found.map(|coefficients| coefficients[d]))
+    };
+    let [drag_max, lift_max] = coefficients(d.max, l.max);
+    let [drag_mean, lift_mean] = coefficients(d.mean, l.mean);
+    let [_, lift_rms] = coefficients(d.rms, l.rms);
     let frequency = periods.frequency();
     Ok(LoadStatistics {
-        drag_coefficient_max: coefficient(d.max),
-        drag_coefficient_mean: coefficient(d.mean),
-        lift_coefficient_max: coefficient(l.max),
-        lift_coefficient_mean: coefficient(l.mean),
-        lift_coefficient_rms: coefficient(l.rms),
+        drag_coefficient_max: drag_max,
+        drag_coefficient_mean: drag_mean,
+        lift_coefficient_max: lift_max,
+        lift_coefficient_mean: lift_mean,
+        lift_coefficient_rms: lift_rms,
         strouhal: case.reference.zip(frequency).map(|(r, f)| f * r.length / r.velocity),
         frequency,
         force_mean: [d.mean, l.mean],
