@@ -13,7 +13,7 @@ use lumley_fem::PlanarMesh;
 use lumley_fem::generate::Channel;
 use lumley_fom::TimeScheme;
 use lumley_fom::flow::{
-    Condition, Flow, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
+    Condition, Flow, FlowMotion, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
 };
 use lumley_fom::motion::{
     MeshMotion, MotionParameters, MovingBoundary, PrescribedMotion, RigidMotion,
@@ -84,9 +84,9 @@ fn flow(size: f64, moving: bool) -> Result<Flow, Box<dyn Error>> {
         let cylinder = MovingBoundary { name: "cylinder".into(), pivot: [0.2, 0.2] };
         let motion = MeshMotion::new(&mesh, &[cylinder], &MotionParameters::default())?;
         let swing = |t: f64| RigidMotion { translation: [0.0, 0.03 * (12.0 * t).sin()], angle: 0.0 };
-        Some(Box::new(PrescribedMotion::new(motion, vec![Arc::new(swing)])?) as _)
+        FlowMotion::Given(Box::new(PrescribedMotion::new(motion, vec![Arc::new(swing)])?))
     } else {
-        None
+        FlowMotion::Still
     };
     Ok(Flow::new(FlowSetup {
         mesh,

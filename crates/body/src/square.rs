@@ -45,7 +45,7 @@ impl Square {
     }
 
     /// Makes row `i` that of the unit matrix.
-    pub(crate) fn unit_row(&mut self, i: usize) {
+    pub fn unit_row(&mut self, i: usize) {
         let size = self.size;
         self.entries[i * size..(i + 1) * size].fill(0.0);
         self[(i, i)] = 1.0;

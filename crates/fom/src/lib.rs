@@ -4,6 +4,7 @@
 //! knows neither POD nor reduced models, and writes nothing to files or to the terminal.
 
 mod checkpoint;
+pub mod coupling;
 mod disjoint_sets;
 pub mod flow;
 pub mod linear;

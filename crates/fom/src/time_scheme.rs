@@ -39,6 +39,14 @@ pub(crate) struct RateFormula {
     pub rate: f64,
 }
 
+impl RateFormula {
+    /// The same for bodies, where the formula takes no rate.
+    pub(crate) fn of_bodies(self) -> lumley_body::RateFormula {
+        let Self { new, now, before, .. } = self;
+        lumley_body::RateFormula { new, now, before }
+    }
+}
+
 impl TimeScheme {
     /// The formula for a step `dt` after the step `previous`, both in s.
     pub(crate) fn formula(self, dt: f64, previous: Option<f64>) -> RateFormula {

@@ -20,7 +20,7 @@ fn only_the_first_step_allocates() {
     let grid = mesh(Kind::Both, 12);
     let motion = Wobble::of(&grid, 4.0);
     let parameters = parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::Tangent);
-    let mut flow = enclosed(grid, parameters, Some(motion), false);
+    let mut flow = enclosed(grid, parameters, lumley_fom::flow::FlowMotion::Given(motion), false);
     flow.step(0.01).expect("a step");
     let built = allocations();
     assert!(built > start, "the counter counts");

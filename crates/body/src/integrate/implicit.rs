@@ -1,5 +1,5 @@
 use super::{DynamicsError, RateFormula, check_loads, check_step, check_tree};
-use crate::{BodyState, Equations, Kinematics, Load, Square, Tree};
+use crate::{BodyState, Equations, Kinematics, Load, PrescribedError, Square, Tree};
 
 /// A residual below this part of the sum of its terms' magnitudes is round-off.
 const TOLERANCE: f64 = 1e-12;
@@ -45,6 +45,16 @@ impl ImplicitScheme {
     /// Bodies without inertia, or a prescribed coordinate that is not a number.
     pub fn new(tree: Tree, time: f64) -> Result<Self, DynamicsError> {
         check_tree(&tree)?;
+        Ok(Self::in_fluid(tree, time)?)
+    }
+
+    /// The bodies at their start, at a time in s, for who solves the equations together with those of a fluid, whose
+    /// inertia massless bodies may have: by [`predict`](Self::predict), [`propose`](Self::propose) and
+    /// [`accept`](Self::accept). [`solve`](Self::solve) may find massless ones singular.
+    ///
+    /// # Errors
+    /// A prescribed coordinate that is not a number.
+    pub fn in_fluid(tree: Tree, time: f64) -> Result<Self, PrescribedError> {
         let start = tree.start(time)?;
         let n = start.position.len();
         let mut scheme = Self {
@@ -74,19 +84,95 @@ impl ImplicitScheme {
         formula: RateFormula,
         loads: &[Load],
     ) -> Result<usize, DynamicsError> {
+        let iterations = self.solve(dt, formula, loads)?;
+        self.accept(dt);
+        Ok(iterations)
+    }
+
+    /// The [`trial`](Self::trial) of such a step, which [`accept`](Self::accept) makes the state, or another trial
+    /// replaces.
+    ///
+    /// # Errors
+    /// [`DynamicsError`].
+    pub fn solve(
+        &mut self,
+        dt: f64,
+        formula: RateFormula,
+        loads: &[Load],
+    ) -> Result<usize, DynamicsError> {
         check_step(self.time, dt)?;
         check_loads(&self.tree, self.time, loads)?;
-        self.tree.prescribe(self.time + dt, &mut self.new.position)?;
-        self.new.velocity.copy_from_slice(&self.now.velocity);
+        self.start_trial(dt, 0.0)?;
         for iterations in 0..=ITERATIONS {
             self.assemble(formula, loads);
             if self.worst(formula).is_none() {
-                self.accept(dt);
                 return Ok(iterations);
             }
             self.correct(formula)?;
         }
         Err(self.no_convergence(formula))
+    }
+
+    /// A [`trial`](Self::trial) after `dt` in s with extrapolated velocities, `v + ahead (v − v₋)`, and the equations
+    /// there without loads.
+    ///
+    /// # Errors
+    /// A prescribed coordinate that is not a number.
+    pub fn predict(
+        &mut self,
+        dt: f64,
+        formula: RateFormula,
+        ahead: f64,
+    ) -> Result<(), PrescribedError> {
+        self.start_trial(dt, ahead)?;
+        self.assemble(formula, &[]);
+        Ok(())
+    }
+
+    /// Gives the [`trial`](Self::trial) these velocities, but for prescribed ones, with the positions that follow, and
+    /// the equations there without loads.
+    ///
+    /// # Panics
+    /// If there is not one velocity for each coordinate.
+    pub fn propose(&mut self, formula: RateFormula, velocity: &[f64]) {
+        self.new.velocity.copy_from_slice(velocity);
+        self.assemble(formula, &[]);
+    }
+
+    /// The trial becomes the state, `dt` in s later.
+    pub fn accept(&mut self, dt: f64) {
+        std::mem::swap(&mut self.before, &mut self.now);
+        std::mem::swap(&mut self.now, &mut self.new);
+        self.time += dt;
+    }
+
+    /// Coordinates and velocities that were found last, by [`solve`](Self::solve), [`predict`](Self::predict) or
+    /// [`propose`](Self::propose).
+    pub fn trial(&self) -> &BodyState {
+        &self.new
+    }
+
+    /// Goes back to what [`state`](Self::state) and [`time`](Self::time) were.
+    ///
+    /// # Panics
+    /// If a state has not one number for each coordinate.
+    pub fn restore(&mut self, time: f64, [now, before]: [&BodyState; 2]) {
+        for (own, given) in [(&mut self.now, now), (&mut self.before, before)] {
+            own.position.copy_from_slice(&given.position);
+            own.velocity.copy_from_slice(&given.velocity);
+        }
+        self.time = time;
+        self.acceleration.fill(0.0);
+        self.kinematics.update(&self.now.position, &self.now.velocity, &self.acceleration);
+    }
+
+    fn start_trial(&mut self, dt: f64, ahead: f64) -> Result<(), PrescribedError> {
+        self.tree.prescribe(self.time + dt, &mut self.new.position)?;
+        let past = self.now.velocity.iter().zip(&self.before.velocity);
+        for (new, (now, before)) in self.new.velocity.iter_mut().zip(past) {
+            *new = now + ahead * (now - before);
+        }
+        Ok(())
     }
 
     /// The equations for the new velocities, or the new positions where they are prescribed.
@@ -145,12 +231,6 @@ impl ImplicitScheme {
         Ok(())
     }
 
-    fn accept(&mut self, dt: f64) {
-        std::mem::swap(&mut self.before, &mut self.now);
-        std::mem::swap(&mut self.now, &mut self.new);
-        self.time += dt;
-    }
-
     fn no_convergence(&self, formula: RateFormula) -> DynamicsError {
         let (k, residual, tolerance) = self.worst(formula).expect("a residual that is too large");
         DynamicsError::NoConvergence {
@@ -182,12 +262,17 @@ impl ImplicitScheme {
         &self.now.velocity
     }
 
-    /// Where the bodies are and how they move.
+    /// Coordinates and velocities now and a step before: what the scheme goes on from.
+    pub fn state(&self) -> [&BodyState; 2] {
+        [&self.now, &self.before]
+    }
+
+    /// Where the bodies are and how they move, in the last trial or, once that is accepted, now.
     pub fn kinematics(&self) -> &Kinematics {
         &self.kinematics
     }
 
-    /// The equations at the instant.
+    /// The equations at the same instant.
     ///
     /// Residuals of prescribed coordinates are the loads that the prescription takes.
     pub fn equations(&self) -> &Equations {

@@ -1,6 +1,7 @@
 use super::{Flow, ViscousForm};
 use crate::TimeScheme;
 use crate::checkpoint::{self, CheckpointError};
+use crate::coupling::BodyMotion;
 use lumley_fem::Point;
 use std::io::{self, Read, Write};
 
@@ -64,6 +65,7 @@ impl Flow {
             .chain(pressures.copied())
             .chain(loads)
             .chain(self.pivots.iter().flatten().copied())
+            .chain(self.bodies.iter().flat_map(BodyMotion::state))
     }
 
     /// Sets what [`state`](Self::state) gives.
@@ -93,9 +95,13 @@ impl Flow {
         for pivot in &mut self.pivots {
             *pivot = [next(), next()];
         }
-        if self.motion.is_some() {
+        if self.moves() {
             self.mesh.nodes_mut().copy_from_slice(&self.nodes[0]);
-            self.slides.follow(&self.mesh);
+            self.follow_slides();
+        }
+        if let Some(bodies) = &mut self.bodies {
+            bodies.restore(self.time, next);
+            bodies.show(&mut self.mesh);
         }
         self.places.spread(self.mesh.nodes(), &mut self.work.dof_points);
         self.forget_factor();

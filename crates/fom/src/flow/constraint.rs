@@ -1,3 +1,4 @@
+use super::rigid::RigidBodies;
 use super::unknowns::{NodeUnknowns, Unknowns};
 use lumley_fem::Point;
 
@@ -12,8 +13,8 @@ struct Entry {
 #[derive(Debug, Clone, Copy)]
 enum Factor {
     One,
-    /// A component of the tangent of a slide.
-    Tangent(usize, usize),
+    /// A component of a direction.
+    Along(usize, usize),
 }
 
 /// How the unknowns of a cell on a boundary follow from those of the system: `local = T system + given`.
@@ -27,7 +28,12 @@ pub(super) struct Constraint {
 
 impl Constraint {
     /// Of a cell with these shared velocity dofs and this mean pressure.
-    pub fn new(dofs: &[usize], pressure: Option<usize>, unknowns: &Unknowns) -> Self {
+    pub fn new(
+        dofs: &[usize],
+        pressure: Option<usize>,
+        unknowns: &Unknowns,
+        rigid: &RigidBodies,
+    ) -> Self {
         let shared = dofs.len();
         let mut this = Self { unknowns: Vec::new(), entries: Vec::new(), rows: 2 * shared + 1 };
         for c in 0..2 {
@@ -36,7 +42,12 @@ impl Constraint {
                 match unknowns.nodes[dof] {
                     NodeUnknowns::Free(first) => this.push(row, first + c, Factor::One),
                     NodeUnknowns::Slides(slide, unknown) => {
-                        this.push(row, unknown, Factor::Tangent(slide, c));
+                        this.push(row, unknown, Factor::Along(slide, c));
+                    }
+                    NodeUnknowns::Rigid { sought, first } => {
+                        for (unknown, direction) in rigid.columns(sought) {
+                            this.push(row, unknown, Factor::Along(first + direction, c));
+                        }
                     }
                     NodeUnknowns::Held(_) => {}
                 }
@@ -66,14 +77,14 @@ impl Constraint {
     }
 
     /// `Tᵀ A T`, both by columns.
-    pub fn reduce(&self, tangents: &[Point], matrix: &[f64], reduced: &mut [f64]) {
+    pub fn reduce(&self, directions: &[Point], matrix: &[f64], reduced: &mut [f64]) {
         reduced.fill(0.0);
         for right in &self.entries {
-            let factor = right.factor.value(tangents);
+            let factor = right.factor.value(directions);
             let column = &matrix[right.row * self.rows..][..self.rows];
             let reduced = &mut reduced[right.column * self.unknowns.len()..];
             for left in &self.entries {
-                reduced[left.column] += left.factor.value(tangents) * column[left.row] * factor;
+                reduced[left.column] += left.factor.value(directions) * column[left.row] * factor;
             }
         }
     }
@@ -81,7 +92,7 @@ impl Constraint {
     /// Adds `Tᵀ (g − A given)` to the right-hand side of the system; `given` has zeros where nothing is given.
     pub fn add_right(
         &self,
-        tangents: &[Point],
+        directions: &[Point],
         matrix: &[f64],
         right: &[f64],
         given: &[f64],
@@ -90,17 +101,17 @@ impl Constraint {
         for entry in &self.entries {
             let row = matrix[entry.row..].iter().step_by(self.rows);
             let known: f64 = row.zip(given).map(|(a, u)| a * u).sum();
-            let value = entry.factor.value(tangents) * (right[entry.row] - known);
+            let value = entry.factor.value(directions) * (right[entry.row] - known);
             system[self.unknowns[entry.column]] += value;
         }
     }
 }
 
 impl Factor {
-    fn value(self, tangents: &[Point]) -> f64 {
+    fn value(self, directions: &[Point]) -> f64 {
         match self {
             Self::One => 1.0,
-            Self::Tangent(slide, c) => tangents[slide][c],
+            Self::Along(direction, c) => directions[direction][c],
         }
     }
 }

@@ -1,6 +1,8 @@
 use crate::linear::LaggedError;
 use crate::motion::{MotionError, rounded};
+use lumley_body::{DynamicsError, TreeError};
 use lumley_fem::Point;
+use lumley_fem::transfer::BodyError;
 use thiserror::Error;
 
 /// Why a flow cannot be set up or go on.
@@ -131,6 +133,59 @@ pub enum FlowError {
     /// The mesh could not follow its boundaries.
     #[error(transparent)]
     Motion(#[from] MotionError),
+    /// The bodies make no tree.
+    #[error(transparent)]
+    Bodies(#[from] TreeError),
+    /// A boundary of a body is not its outline.
+    #[error(transparent)]
+    Outline(#[from] BodyError),
+    /// The bodies do not move by themselves as they should.
+    #[error(transparent)]
+    Dynamics(#[from] DynamicsError),
+    /// Bodies of which none is in the fluid.
+    #[error(
+        "no body has a boundary: name for at least one the boundary of the mesh through which the fluid acts on it"
+    )]
+    DryBodies,
+    /// A coordinate without inertia along which no fluid gives any.
+    #[error(
+        "{coordinate} moves no mass, and no boundary that would take fluid with it: give its body a mass or inertia, or the \
+         boundary of a hole in the mesh"
+    )]
+    Massless {
+        /// The coordinate.
+        coordinate: String,
+    },
+    /// A body has met another or a wall, or left the domain.
+    #[error(
+        "at t = {time} s the body with boundary `{body}` meets `{with}`: bodies must keep clear of each other and within the \
+         domain; start farther away, hold it with a stiffer spring, or end the run before",
+        time = rounded(*time)
+    )]
+    Collision {
+        /// When, in s.
+        time: f64,
+        /// Its boundary.
+        body: String,
+        /// The other boundary.
+        with: String,
+    },
+    /// A step that does not find where the bodies are.
+    #[error(
+        "at t = {time} s the bodies are still {apart:.1e} of their size from where the mesh has them after {iterations} \
+         iterations, wanted {wanted:.1e}: take a smaller step",
+        time = rounded(*time)
+    )]
+    NotPlaced {
+        /// When, in s.
+        time: f64,
+        /// Iterations made.
+        iterations: usize,
+        /// Largest distance, over the radius of the body.
+        apart: f64,
+        /// What was wanted.
+        wanted: f64,
+    },
     /// The linear system was not solved.
     #[error("at t = {time} s: {source}; {}", .source.remedy(), time = rounded(*time))]
     Linear {

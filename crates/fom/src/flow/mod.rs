@@ -22,6 +22,7 @@ mod output;
 mod parameters;
 mod periodic;
 mod places;
+mod rigid;
 mod setup;
 mod slip;
 mod solve;
@@ -37,10 +38,12 @@ pub use error::FlowError;
 pub use field::VectorField;
 pub use loads::Load;
 pub use parameters::{FlowParameters, Linearisation, ViscousForm};
-pub use setup::{FlowSetup, FlowStart};
+pub(crate) use setup::boundary_number;
+pub use setup::{FlowMotion, FlowSetup, FlowStart};
 pub use steady::{SteadyLimits, SteadyReport};
 pub use step::FlowStep;
 
+use crate::coupling::BodyMotion;
 use crate::linear::{CellUnknowns, LaggedSolver};
 use crate::motion::Motion;
 use given::Given;
@@ -49,6 +52,7 @@ use lumley_fem::geometry::Tabulated;
 use lumley_fem::space::NodalSpace;
 use lumley_fem::{PlanarMesh, Point};
 use places::DofPlaces;
+use rigid::RigidBodies;
 use slip::Slides;
 use stability::Stability;
 use system::System;
@@ -59,7 +63,7 @@ use unknowns::Unknowns;
 /// ```
 /// use lumley_fom::TimeScheme;
 /// use lumley_fom::flow::{
-///     Condition, Flow, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
+///     Condition, Flow, FlowMotion, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
 /// };
 /// use lumley_fem::{MeshDescription, PlanarMesh};
 /// use std::sync::Arc;
@@ -83,7 +87,7 @@ use unknowns::Unknowns;
 ///         ("right".into(), Condition::TractionFree),
 ///     ],
 ///     start: FlowStart::Velocity(developed),
-///     motion: None,
+///     motion: FlowMotion::Still,
 ///     parallel: false,
 /// })?;
 /// for _ in 0..3 {
@@ -99,7 +103,10 @@ pub struct Flow {
     conditions: Vec<Condition>,
     mesh: PlanarMesh,
     space: NodalSpace,
+    /// How the mesh moves, if nothing but the time tells.
     motion: Option<Box<dyn Motion>>,
+    /// The bodies that move it otherwise.
+    bodies: Option<BodyMotion>,
     parallel: bool,
 
     unknowns: Unknowns,
@@ -108,6 +115,7 @@ pub struct Flow {
     solver: LaggedSolver,
     places: DofPlaces,
     slides: Slides,
+    rigid: RigidBodies,
     given: Given,
     load_dofs: LoadDofs,
 
@@ -125,7 +133,7 @@ pub struct Flow {
     velocity: [Vec<Point>; 2],
     /// By cell, now and a step before.
     pressure: [Vec<[f64; 3]>; 2],
-    /// Where the geometry nodes were, now and a step before; nothing where the mesh stays.
+    /// Where the geometry nodes were in the equations, now and a step before; nothing where the mesh stays.
     nodes: [Vec<Point>; 2],
     /// At the velocity dofs.
     mesh_velocity: Vec<Point>,
@@ -148,6 +156,10 @@ struct Work {
     base: Vec<Point>,
     dof_points: Vec<Point>,
     node_velocity: Vec<Point>,
+    /// Along which dofs move that are not free: those of the slides, then those of the bodies.
+    directions: Vec<Point>,
+    /// Of the bodies, by coordinate.
+    body_velocity: Vec<f64>,
     right: Vec<f64>,
     solution: Vec<f64>,
     new_velocity: Vec<Point>,

@@ -1,4 +1,6 @@
 use super::{Condition, Flow, Load};
+use crate::coupling::{BodyMotion, Coupling};
+use lumley_body::ImplicitScheme;
 use lumley_fem::element::{Cell, Q2, TriangleP2};
 use lumley_fem::geometry::{Mapped, Tabulated};
 use lumley_fem::quadrature::rule;
@@ -26,7 +28,20 @@ impl Flow {
 
     /// Whether the mesh moves.
     pub fn moves(&self) -> bool {
-        self.motion.is_some()
+        self.motion.is_some() || self.bodies.is_some()
+    }
+
+    /// The bodies, where they are and how they move now.
+    pub fn bodies(&self) -> Option<&ImplicitScheme> {
+        self.bodies.as_ref().map(BodyMotion::scheme)
+    }
+
+    /// With explicit coupling, about how much of their last change of velocity the bodies undo in a step because of the
+    /// fluid that they take with them: where it nears 1, or some 0.3 with BDF2, the coupling is unstable, whatever the
+    /// step. Estimated with the mass of the fluid that the bodies displace.
+    pub fn added_mass_share(&self) -> Option<f64> {
+        let bodies = self.bodies.as_ref()?;
+        (bodies.coupling() == Coupling::Explicit).then(|| bodies.added_mass_share())
     }
 
     /// The mesh, where it is now.

@@ -2,11 +2,13 @@ use super::given::Given;
 use super::loads::{Load, LoadDofs, edge_rule};
 use super::output::area_rules;
 use super::places::DofPlaces;
+use super::rigid::RigidBodies;
 use super::slip::Slides;
 use super::stability::Stability;
 use super::system::System;
 use super::unknowns::Unknowns;
 use super::{Condition, Flow, FlowError, FlowParameters, VectorField, Work};
+use crate::coupling::{BodyMotion, BodySetup};
 use crate::disjoint_sets::DisjointSets;
 use crate::linear::{
     Analysis, CellUnknowns, DelayedUnknowns, GmresLimits, LaggedSolver, RenewalPolicy,
@@ -40,6 +42,25 @@ pub enum FlowStart {
     Stokes,
 }
 
+/// How the mesh of a flow moves.
+///
+/// ```
+/// use lumley_fom::{coupling::BodySetup, flow::FlowMotion};
+/// assert!(matches!(FlowMotion::default(), FlowMotion::Still));
+/// let bodies = FlowMotion::Bodies(BodySetup::default());
+/// # assert!(matches!(bodies, FlowMotion::Bodies(_)));
+/// ```
+#[derive(Default)]
+pub enum FlowMotion {
+    /// Not at all.
+    #[default]
+    Still,
+    /// As the time says.
+    Given(Box<dyn Motion>),
+    /// As bodies in the flow do, which it moves, or which are prescribed.
+    Bodies(BodySetup),
+}
+
 /// Everything a flow is made of.
 ///
 /// See [`Flow`] for an example.
@@ -52,8 +73,8 @@ pub struct FlowSetup {
     pub conditions: Vec<(String, Condition)>,
     /// How it begins.
     pub start: FlowStart,
-    /// How the mesh moves, if it does.
-    pub motion: Option<Box<dyn Motion>>,
+    /// How the mesh moves.
+    pub motion: FlowMotion,
     /// Whether all cores assemble and factorise; the bits are the same.
     pub parallel: bool,
 }
@@ -64,21 +85,34 @@ impl Flow {
     /// # Errors
     /// Every variant of [`FlowError`] but those of a step.
     pub fn new(setup: FlowSetup) -> Result<Self, FlowError> {
-        let FlowSetup { mut mesh, parameters, conditions, start, mut motion, parallel } = setup;
+        let FlowSetup { mut mesh, parameters, conditions, start, motion, parallel } = setup;
         parameters.check()?;
         let conditions = by_boundary(&mesh, conditions)?;
-        let moving = moving(&mesh, &conditions, motion.as_deref())?;
+        let (mut motion, mut bodies) = match motion {
+            FlowMotion::Still => (None, None),
+            FlowMotion::Given(motion) => (Some(motion), None),
+            FlowMotion::Bodies(setup) => {
+                (None, Some(BodyMotion::new(setup, &mesh, parameters.density)?))
+            }
+        };
+        let moving = moving(&mesh, &conditions, motion.as_deref(), bodies.as_ref())?;
+        let space = NodalSpace::velocity(mesh.topology());
+        let rigid = RigidBodies::new(bodies.as_ref(), &mesh, &space);
         let mut nodes = [Vec::new(), Vec::new()];
         if let Some(motion) = &mut motion {
             motion.carry(0.0, &mut mesh)?;
+        }
+        if let Some(bodies) = &mut bodies {
+            bodies.carry(0.0, &mut mesh)?;
+        }
+        if motion.is_some() || bodies.is_some() {
             nodes = [mesh.nodes().to_vec(), mesh.nodes().to_vec()];
         }
-        let space = NodalSpace::velocity(mesh.topology());
         let slides = Slides::new(&mesh, &space, &conditions);
-        let unknowns = Unknowns::new(&mesh, &space, &conditions, &slides)?;
+        let unknowns = Unknowns::new(&mesh, &space, &conditions, &slides, &rigid)?;
         check_parts(&mesh, &conditions, &unknowns)?;
-        let (system, pattern) = System::new(&mesh, &space, &conditions, &unknowns);
-        let solver = solver(&mesh, &unknowns, &system, &pattern, parallel);
+        let (system, pattern) = System::new(&mesh, &space, &conditions, &unknowns, &rigid);
+        let solver = solver(&mesh, &unknowns, (&system, &rigid), &pattern, parallel);
         let (dofs, cells) = (space.dofs().len(), mesh.topology().cells());
         let boundaries = mesh.topology().boundaries().len();
         let mut flow = Self {
@@ -97,7 +131,13 @@ impl Flow {
             mesh_velocity: vec![[0.0; 2]; dofs],
             loads: vec![Load::default(); boundaries],
             pivots: vec![[0.0; 2]; boundaries],
-            work: Work::new(dofs, cells, mesh.nodes().len(), unknowns.count),
+            work: Work {
+                directions: vec![[0.0; 2]; slides.count() + rigid.directions()],
+                body_velocity: bodies
+                    .as_ref()
+                    .map_or(Vec::new(), |b| b.scheme().velocity().to_vec()),
+                ..Work::new(dofs, cells, mesh.nodes().len(), unknowns.count)
+            },
             edge_rule: edge_rule(),
             area_rules: area_rules(),
             moving,
@@ -106,13 +146,16 @@ impl Flow {
             mesh,
             space,
             motion,
+            bodies,
             parallel,
             unknowns,
             pattern,
             system,
             solver,
             slides,
+            rigid,
         };
+        flow.follow_slides();
         flow.places.spread(flow.mesh.nodes(), &mut flow.work.dof_points);
         flow.show_pivots();
         flow.begin(start)?;
@@ -148,7 +191,7 @@ fn by_boundary(
     let boundaries = mesh.topology().boundaries();
     let mut found: Vec<Option<Condition>> = vec![None; boundaries.len()];
     for (name, condition) in conditions {
-        let place = number(mesh, &name)?;
+        let place = boundary_number(mesh, &name)?;
         if found[place].replace(condition).is_some() {
             return Err(FlowError::TwoConditions { boundary: name });
         }
@@ -159,7 +202,7 @@ fn by_boundary(
 }
 
 /// Number of the boundary of that name.
-fn number(mesh: &PlanarMesh, name: &str) -> Result<usize, FlowError> {
+pub(crate) fn boundary_number(mesh: &PlanarMesh, name: &str) -> Result<usize, FlowError> {
     let boundaries = mesh.topology().boundaries();
     boundaries.iter().position(|boundary| boundary.name == name).ok_or_else(|| {
         let known: Vec<&str> = boundaries.iter().map(|b| b.name.as_str()).collect();
@@ -172,18 +215,22 @@ fn moving(
     mesh: &PlanarMesh,
     conditions: &[Condition],
     motion: Option<&dyn Motion>,
+    bodies: Option<&BodyMotion>,
 ) -> Result<Vec<usize>, FlowError> {
-    let moves = |name: &str| {
-        let place = number(mesh, name)?;
+    let given = motion.map_or(Vec::new(), |motion| motion.boundaries());
+    let given = given.into_iter().map(|name| boundary_number(mesh, name));
+    let of_bodies = bodies.into_iter().flat_map(BodyMotion::boundaries).map(|[_, k]| Ok(k));
+    let check = |place: Result<usize, FlowError>| {
+        let place = place?;
         match &conditions[place] {
             Condition::NoSlip => Ok(place),
             other => {
-                let condition = other.name();
-                Err(FlowError::MovingBoundary { boundary: name.into(), condition })
+                let boundary = mesh.topology().boundaries()[place].name.clone();
+                Err(FlowError::MovingBoundary { boundary, condition: other.name() })
             }
         }
     };
-    motion.map_or(Vec::new(), |motion| motion.boundaries()).into_iter().map(moves).collect()
+    given.chain(of_bodies).map(check).collect()
 }
 
 /// A mesh in one piece may be closed; of several each must have an outlet, for one pressure alone is set.
@@ -222,14 +269,15 @@ fn neighbours(mesh: &PlanarMesh, unknowns: &Unknowns) -> impl Iterator<Item = [u
 fn solver(
     mesh: &PlanarMesh,
     unknowns: &Unknowns,
-    system: &System,
+    (system, rigid): (&System, &RigidBodies),
     pattern: &CellUnknowns,
     parallel: bool,
 ) -> LaggedSolver {
     let order = system.order();
     let mut rank = vec![0; order.len()];
     order.iter().enumerate().for_each(|(k, &cell)| rank[cell] = k);
-    let centroids: Vec<_> = order.iter().map(|&cell| mesh.centre(cell)).collect();
+    let centroids = order.iter().map(|&cell| mesh.centre(cell));
+    let centroids: Vec<_> = centroids.chain(rigid.cells().map(|(_, centre)| centre)).collect();
     let pressures: Vec<[usize; 2]> = order
         .iter()
         .enumerate()
@@ -253,6 +301,8 @@ impl Work {
             base: vectors(dofs),
             dof_points: vectors(dofs),
             node_velocity: vectors(nodes),
+            directions: Vec::new(),
+            body_velocity: Vec::new(),
             right: vec![0.0; unknowns],
             solution: vec![0.0; unknowns],
             new_velocity: vectors(dofs),

@@ -9,7 +9,7 @@ use lumley_fem::{PlanarMesh, Point};
 /// Cosine of the angle between two edges above which their boundary has a kink.
 const KINK: f64 = 0.9;
 
-/// The dofs at which the fluid slips along a boundary, and the tangents there.
+/// The dofs at which the fluid slips along a boundary.
 ///
 /// The normal of a dof is that of the finite-element functions, `∫ φ_i n`, so that no fluid goes through the curved
 /// boundary (Engelman, Sani and Gresho 1982, Int. J. Numer. Methods Fluids 2, 225-238).
@@ -17,8 +17,7 @@ const KINK: f64 = 0.9;
 pub(super) struct Slides {
     /// Number of the slide by shared dof.
     of: Vec<Option<usize>>,
-    /// Unit tangents by slide.
-    pub tangents: Vec<Point>,
+    count: usize,
     edges: Vec<SlipEdge>,
     rule: Vec<Tabulated<3>>,
 }
@@ -58,9 +57,12 @@ impl Slides {
         let slides = |edge: usize| dofs(edge).map(|dof| of[dof]);
         let edges = edges.iter().map(|&edge| SlipEdge { edge, slides: slides(edge) }).collect();
         let rule = Tabulated::on(&P2, &rule(Cell::Interval, 5));
-        let mut this = Self { of, tangents: vec![[0.0; 2]; count], edges, rule };
-        this.follow(mesh);
-        this
+        Self { of, count, edges, rule }
+    }
+
+    /// Number of slides.
+    pub fn count(&self) -> usize {
+        self.count
     }
 
     /// The slide of a dof.
@@ -68,22 +70,22 @@ impl Slides {
         self.of[dof]
     }
 
-    /// Computes the tangents where the mesh is now.
-    pub fn follow(&mut self, mesh: &PlanarMesh) {
-        self.tangents.fill([0.0; 2]);
+    /// Computes the unit tangents, by slide, where the mesh is now.
+    pub fn follow(&self, mesh: &PlanarMesh, tangents: &mut [Point]) {
+        tangents.fill([0.0; 2]);
         for SlipEdge { edge, slides } in &self.edges {
             let nodes = mesh.edge(*edge);
             for at in &self.rule {
                 let EdgePoint { tangent, weight, .. } = EdgePoint::new(&nodes, at);
                 for (slide, phi) in slides.iter().zip(at.phi) {
                     if let Some(slide) = slide {
-                        let sum = &mut self.tangents[*slide];
+                        let sum = &mut tangents[*slide];
                         *sum = [0, 1].map(|d| sum[d] + phi * weight * tangent[d]);
                     }
                 }
             }
         }
-        for tangent in &mut self.tangents {
+        for tangent in tangents {
             let length = tangent[0].hypot(tangent[1]);
             *tangent = tangent.map(|t| t / length);
         }

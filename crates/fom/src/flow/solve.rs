@@ -18,7 +18,10 @@ impl Flow {
 
     /// Sets what boundaries give at `time`.
     pub(super) fn set_given(&mut self, time: f64) -> Result<(), FlowError> {
-        let Self { given, mesh, places, conditions, mesh_velocity, .. } = self;
+        let Self { given, mesh, places, conditions, mesh_velocity, rigid, bodies, .. } = self;
+        if let Some(bodies) = bodies {
+            rigid.give(bodies.scheme(), &mut given.velocity);
+        }
         given.update(mesh, places, conditions, mesh_velocity, time)
     }
 
@@ -45,19 +48,30 @@ impl Flow {
                 self.work.base[dof] = self.given.velocity[dof];
             }
         }
+        if let Some(bodies) = &self.bodies {
+            self.rigid.hold(bodies.scheme(), &mut self.work.base);
+        }
+    }
+
+    /// Finds the directions along which dofs on slip boundaries move, where the mesh is now.
+    pub(super) fn follow_slides(&mut self) {
+        self.slides.follow(&self.mesh, &mut self.work.directions[..self.slides.count()]);
     }
 
     /// Starts the linear solver from `work.base` and `work.new_pressure`.
     pub(super) fn guess(&mut self) {
-        let Self { unknowns, slides, work, .. } = self;
+        let Self { unknowns, rigid, bodies, work, .. } = self;
+        if let Some(bodies) = bodies {
+            rigid.guess(bodies.scheme(), &mut work.solution);
+        }
         for (&node, velocity) in unknowns.nodes.iter().zip(&work.base) {
             match node {
                 NodeUnknowns::Free(k) => work.solution[k..k + 2].copy_from_slice(velocity),
                 NodeUnknowns::Slides(slide, k) => {
-                    let tangent = slides.tangents[slide];
+                    let tangent = work.directions[slide];
                     work.solution[k] = tangent[0] * velocity[0] + tangent[1] * velocity[1];
                 }
-                NodeUnknowns::Held(_) => {}
+                NodeUnknowns::Rigid { .. } | NodeUnknowns::Held(_) => {}
             }
         }
         // A pressure that is known up to a constant is zero in the last cell.
@@ -77,18 +91,26 @@ impl Flow {
         if self.unknowns.pinned() {
             terms.divergence = self.given.divergence(&self.mesh, time)?;
         }
-        let Self { system, space, pattern, slides, given, work, .. } = self;
+        let Self { system, space, pattern, slides, rigid, bodies, given, work, .. } = self;
         let wind = work.wind.iter_mut().zip(&work.base).zip(&self.mesh_velocity);
         wind.for_each(|((wind, u), w)| *wind = [0, 1].map(|d| u[d] - w[d]));
+        if let Some(bodies) = bodies {
+            let directions = &mut work.directions[slides.count()..];
+            rigid.linearise(bodies.scheme(), &terms, directions);
+        }
         let fields = NodalFields {
             nodes: self.mesh.nodes(),
             wind: &work.wind,
             source: &work.source,
             base: &work.base,
         };
-        system.assemble(&terms, &fields, &slides.tangents, self.parallel);
-        let tangents = &slides.tangents;
-        system.right_side(space, pattern, tangents, &given.velocity, &mut work.right);
+        let directions = &work.directions;
+        system.assemble(&terms, &fields, directions, self.parallel);
+        system.right_side(space, pattern, directions, &given.velocity, &mut work.right);
+        if let Some(bodies) = bodies {
+            let cells = system.order().len();
+            rigid.add(bodies.scheme(), pattern, cells, &mut system.matrices, &mut work.right);
+        }
         let solved = self.solver.solve(&system.matrices, &work.right, &mut work.solution);
         let solved = solved.map_err(|source| {
             if source.is_finite() {
@@ -103,7 +125,7 @@ impl Flow {
 
     /// Takes the solution of the linear system to the velocity and the pressure.
     fn distribute(&mut self, time: f64) -> Result<(), FlowError> {
-        let Self { unknowns, slides, given, work, .. } = self;
+        let Self { unknowns, rigid, given, work, .. } = self;
         let x = &work.solution;
         if !x.iter().all(|x| x.is_finite()) {
             return Err(FlowError::Diverged { time });
@@ -111,7 +133,13 @@ impl Flow {
         for (dof, &node) in unknowns.nodes.iter().enumerate() {
             work.new_velocity[dof] = match node {
                 NodeUnknowns::Free(k) => [x[k], x[k + 1]],
-                NodeUnknowns::Slides(slide, k) => slides.tangents[slide].map(|t| t * x[k]),
+                NodeUnknowns::Slides(slide, k) => work.directions[slide].map(|t| t * x[k]),
+                NodeUnknowns::Rigid { sought, first } => {
+                    rigid.columns(sought).fold(given.velocity[dof], |[u, v], (k, direction)| {
+                        let [a, b] = work.directions[first + direction];
+                        [u + a * x[k], v + b * x[k]]
+                    })
+                }
                 NodeUnknowns::Held(_) => given.velocity[dof],
             };
         }

@@ -5,8 +5,11 @@ use crate::time_scheme::RateFormula;
 
 /// Newton's method stops when the velocity changes by less than this share of its largest value.
 const NEWTON_TOLERANCE: f64 = 1e-9;
-/// Most iterations of Newton's method in a step.
-const NEWTON_ITERATIONS: usize = 20;
+/// Most linear systems in a step.
+const MOST_SYSTEMS: usize = 20;
+/// How far a body may be, over its radius, from where it was foreseen: less than the error of a step that follows its
+/// motion.
+const PLACE_TOLERANCE: f64 = 1e-3;
 
 /// How a step went.
 ///
@@ -58,20 +61,36 @@ impl Flow {
         }
         let time = self.time + dt;
         let formula = self.parameters.scheme.damping_formula(dt, self.previous);
+        let ahead = match self.previous {
+            Some(previous) if formula.before != 0.0 => dt / previous,
+            _ => 0.0,
+        };
+        if let Some(bodies) = &mut self.bodies {
+            bodies.foresee(dt, formula, ahead, &self.loads)?;
+        }
+        self.extrapolate(ahead);
+        self.solve_step(time, formula)
+    }
+
+    /// Prepares the equations at `time`, where the mesh is then, linearised about `work.base`.
+    fn prepare(&mut self, time: f64, formula: RateFormula) -> Result<(), FlowError> {
         self.move_mesh(time, formula)?;
         self.set_given(time)?;
         self.set_force(time)?;
         self.subtract_history(formula);
-        self.extrapolate(dt, formula);
+        self.hold_base();
         self.guess();
-        self.solve_step(time, formula)
+        Ok(())
     }
 
     /// Moves the mesh to `time`; its velocity is the difference formula of its places, so that the scheme keeps a
     /// uniform flow.
     fn move_mesh(&mut self, time: f64, formula: RateFormula) -> Result<(), FlowError> {
-        let Some(motion) = &mut self.motion else { return Ok(()) };
-        motion.carry(time, &mut self.mesh)?;
+        match (&mut self.motion, &mut self.bodies) {
+            (Some(motion), _) => motion.carry(time, &mut self.mesh)?,
+            (None, Some(bodies)) => bodies.carry(time, &mut self.mesh)?,
+            (None, None) => return Ok(()),
+        }
         let work = &mut self.work;
         let past = self.nodes[0].iter().zip(&self.nodes[1]);
         let moves = work.node_velocity.iter_mut().zip(self.mesh.nodes()).zip(past);
@@ -81,7 +100,8 @@ impl Flow {
         }
         self.places.spread(&work.node_velocity, &mut self.mesh_velocity);
         self.places.spread(self.mesh.nodes(), &mut work.dof_points);
-        self.slides.follow(&self.mesh);
+        self.follow_slides();
+        self.show_pivots();
         Ok(())
     }
 
@@ -95,12 +115,9 @@ impl Flow {
         }
     }
 
-    /// Extrapolates velocity and pressure to the end of a step: linearly with BDF2, else as they are, the paper's.
-    fn extrapolate(&mut self, dt: f64, formula: RateFormula) {
-        let ratio = match self.previous {
-            Some(previous) if formula.before != 0.0 => dt / previous,
-            _ => 0.0,
-        };
+    /// Extrapolates velocity and pressure to the end of a step, their last change times `ratio` further: linearly with
+    /// BDF2, else as they are, the paper's.
+    fn extrapolate(&mut self, ratio: f64) {
         let ahead = |now: f64, before: f64| now + ratio * (now - before);
         let past = self.velocity[0].iter().zip(&self.velocity[1]);
         for (base, (now, before)) in self.work.base.iter_mut().zip(past) {
@@ -110,31 +127,46 @@ impl Flow {
         for (new, (now, before)) in self.work.new_pressure.iter_mut().zip(past) {
             new[0] = ahead(now[0], before[0]);
         }
-        self.hold_base();
     }
 
+    /// Solves the equations at `time`: once, and again where Newton's method wants it, or where bodies are not where
+    /// they were foreseen.
     fn solve_step(&mut self, time: f64, formula: RateFormula) -> Result<FlowStep, FlowError> {
         let mut step = FlowStep::default();
         let linearisation = self.parameters.linearisation;
+        let newton = linearisation == Linearisation::Newton;
         let terms = self.terms(formula.new, linearisation != Linearisation::Extrapolation);
-        step.count(self.solve(&terms, time)?);
-        let Change { share: mut change, largest } = self.change();
-        (step.extrapolation_error, step.largest_velocity) = (change, largest);
-        while linearisation == Linearisation::Newton && change > NEWTON_TOLERANCE {
-            if step.systems == NEWTON_ITERATIONS {
-                return Err(FlowError::NoConvergence {
-                    time,
-                    iterations: step.systems,
-                    change,
-                    wanted: NEWTON_TOLERANCE,
-                    remedy: "take a smaller step",
-                });
+        self.prepare(time, formula)?;
+        loop {
+            step.count(self.solve(&terms, time)?);
+            let Change { share: change, largest } = self.change();
+            step.largest_velocity = largest;
+            if step.systems == 1 {
+                step.extrapolation_error = change;
+            }
+            let apart = self.correct_bodies(formula);
+            let wanted = if newton { NEWTON_TOLERANCE } else { PLACE_TOLERANCE };
+            if apart <= wanted && !(newton && change > NEWTON_TOLERANCE) {
+                return Ok(step);
+            }
+            if step.systems == MOST_SYSTEMS {
+                return Err(not_converged(time, step.systems, change, (apart, wanted)));
             }
             self.work.base.copy_from_slice(&self.work.new_velocity);
-            step.count(self.solve(&terms, time)?);
-            Change { share: change, largest: step.largest_velocity } = self.change();
+            if apart > 0.0 {
+                self.prepare(time, formula)?;
+            }
         }
-        Ok(step)
+    }
+
+    /// Gives the bodies the velocities that were found; how far they are then from where the mesh has them, over their
+    /// radius.
+    fn correct_bodies(&mut self, formula: RateFormula) -> f64 {
+        let Self { bodies, rigid, work, .. } = self;
+        let Some(bodies) = bodies.as_mut().filter(|_| rigid.count() > 0) else { return 0.0 };
+        work.body_velocity.copy_from_slice(&bodies.scheme().trial().velocity);
+        rigid.velocities(&work.solution, &mut work.body_velocity);
+        bodies.propose(formula, &work.body_velocity)
     }
 
     /// The new flow is the flow.
@@ -143,21 +175,45 @@ impl Flow {
         self.velocity[0].copy_from_slice(&self.work.new_velocity);
         self.pressure.swap(0, 1);
         self.pressure[0].copy_from_slice(&self.work.new_pressure);
-        if self.motion.is_some() {
+        if self.moves() {
             self.nodes.swap(0, 1);
             self.nodes[0].copy_from_slice(self.mesh.nodes());
         }
-        self.show_pivots();
         (self.time, self.previous) = (time, Some(dt));
         self.steps += 1;
         self.update_loads();
+        if let Some(bodies) = &mut self.bodies {
+            bodies.accept(dt);
+        }
+        self.show_bodies();
+    }
+
+    /// The mesh is where the bodies were found, which is next to where they were foreseen.
+    pub(super) fn show_bodies(&mut self) {
+        let Some(bodies) = &mut self.bodies else { return };
+        bodies.show(&mut self.mesh);
+        self.places.spread(self.mesh.nodes(), &mut self.work.dof_points);
+        self.show_pivots();
     }
 
     /// The pivots of the boundaries that move are where their motion puts them.
     pub(super) fn show_pivots(&mut self) {
-        let Some(motion) = &self.motion else { return };
         for (k, &boundary) in self.moving.iter().enumerate() {
-            self.pivots[boundary] = motion.pivot(k);
+            self.pivots[boundary] = match (&self.motion, &self.bodies) {
+                (Some(motion), _) => motion.pivot(k),
+                (None, Some(bodies)) => bodies.pivot(k),
+                (None, None) => unreachable!("nothing moves by itself"),
+            };
         }
     }
+}
+
+/// A step that took too many systems: because of the bodies, or the flow.
+fn not_converged(time: f64, iterations: usize, change: f64, apart: (f64, f64)) -> FlowError {
+    let (apart, wanted) = apart;
+    if apart > wanted {
+        return FlowError::NotPlaced { time, iterations, apart, wanted };
+    }
+    let wanted = NEWTON_TOLERANCE;
+    FlowError::NoConvergence { time, iterations, change, wanted, remedy: "take a smaller step" }
 }

@@ -2,6 +2,7 @@ use super::Condition;
 use super::cells::{self, Group, INTERIOR, NodalFields, Output, Terms, reference_points};
 use super::constraint::Constraint;
 use super::outlet::Outlet;
+use super::rigid::RigidBodies;
 use super::unknowns::Unknowns;
 use crate::linear::CellUnknowns;
 use lumley_fem::element::{Cell, P2Bubble, Q2, TriangleP2};
@@ -43,7 +44,7 @@ struct RimCell {
 }
 
 /// The linear system of a flow, cell by cell: first the triangles inside, then those at boundaries, then the
-/// quadrilaterals likewise.
+/// quadrilaterals likewise; last, as cells of their own, the bodies, which [`RigidBodies`] adds.
 #[derive(Debug, Clone)]
 pub(super) struct System {
     parts: [Part; 4],
@@ -68,12 +69,13 @@ impl System {
         space: &NodalSpace,
         conditions: &[Condition],
         unknowns: &Unknowns,
+        rigid: &RigidBodies,
     ) -> (Self, CellUnknowns) {
         let topology = mesh.topology();
         let outlet = Outlet::new(mesh, space, conditions);
         let constraint = |cell: usize| {
             let dofs = space.dofs().cell(cell);
-            Constraint::new(&dofs[..dofs.len() - 1], unknowns.pressures[cell], unknowns)
+            Constraint::new(&dofs[..dofs.len() - 1], unknowns.pressures[cell], unknowns, rigid)
         };
         let constraints: Vec<Constraint> = (0..topology.cells()).map(constraint).collect();
         let mut at_rim: Vec<bool> = constraints.iter().map(|c| !c.is_plain()).collect();
@@ -96,8 +98,9 @@ impl System {
             quadrilaterals_part(mesh, space, &lists[3]),
         ];
         let order = lists.concat();
-        let lists: Vec<&[usize]> =
-            order.iter().map(|&cell| constraints[cell].unknowns.as_slice()).collect();
+        let of_cells = order.iter().map(|&cell| constraints[cell].unknowns.clone());
+        let of_bodies = rigid.cells().map(|(unknowns, _)| unknowns);
+        let lists: Vec<Vec<usize>> = of_cells.chain(of_bodies).collect();
         let pattern = CellUnknowns::new(unknowns.count, &lists).expect("a sound numbering");
         let mut this = Self {
             rim_cells: Vec::new(),
@@ -150,7 +153,7 @@ impl System {
         &mut self,
         terms: &Terms,
         fields: &NodalFields<'_>,
-        tangents: &[Point],
+        directions: &[Point],
         parallel: bool,
     ) {
         let (mut inside, mut held, mut first) = (0, 0, 0);
@@ -181,7 +184,7 @@ impl System {
         self.add_outlet(terms, fields);
         for rim in self.rim_cells.iter().flatten() {
             let matrix = &self.held[rim.held..];
-            rim.constraint.reduce(tangents, matrix, &mut self.matrices[rim.reduced.clone()]);
+            rim.constraint.reduce(directions, matrix, &mut self.matrices[rim.reduced.clone()]);
         }
     }
 
@@ -200,7 +203,7 @@ impl System {
         &self,
         space: &NodalSpace,
         pattern: &CellUnknowns,
-        tangents: &[Point],
+        directions: &[Point],
         given: &[Point],
         system: &mut [f64],
     ) {
@@ -212,7 +215,7 @@ impl System {
                 let local = &mut local[..right.len()];
                 gather(space.dofs().cell(self.order[k]), given, local);
                 let matrix = &self.held[rim.held..][..right.len() * right.len()];
-                rim.constraint.add_right(tangents, matrix, right, local, system);
+                rim.constraint.add_right(directions, matrix, right, local, system);
             } else {
                 for (&unknown, value) in pattern.of(k).iter().zip(right) {
                     system[unknown as usize] += value;

@@ -1,3 +1,4 @@
+use super::rigid::RigidBodies;
 use super::slip::Slides;
 use super::{Condition, FlowError, periodic};
 use lumley_fem::PlanarMesh;
@@ -10,12 +11,19 @@ pub(super) enum NodeUnknowns {
     Free(usize),
     /// The component along the boundary; number of the slide, and the unknown.
     Slides(usize, usize),
+    /// The velocities of the coordinates that move a sought body, along as many directions from this on.
+    Rigid {
+        /// Number of the body among those that are sought.
+        sought: usize,
+        /// Its first direction.
+        first: usize,
+    },
     /// Nothing: the condition of this boundary gives it.
     Held(usize),
 }
 
 /// The unknowns of a flow whose interior velocities and slopes of the pressure are eliminated in the cells:
-/// velocities first, then a mean pressure for each cell.
+/// those of bodies first, then velocities, then a mean pressure for each cell.
 #[derive(Debug, Clone)]
 pub(super) struct Unknowns {
     /// By shared velocity dof.
@@ -45,6 +53,7 @@ impl Unknowns {
         space: &NodalSpace,
         conditions: &[Condition],
         slides: &Slides,
+        rigid: &RigidBodies,
     ) -> Result<Self, FlowError> {
         let stands_for = periodic::representatives(mesh, space, conditions)?;
         let shared = space.dofs().shared();
@@ -59,14 +68,16 @@ impl Unknowns {
                 }
             }
         }
-        let mut count = 0;
+        let mut moved = vec![None; shared];
+        rigid.nodes(slides.count()).for_each(|(dof, node)| moved[dof] = Some(node));
+        let mut count = rigid.count();
         let mut nodes: Vec<NodeUnknowns> = Vec::with_capacity(shared);
         for dof in 0..shared {
             let first = stands_for[dof];
-            nodes.push(if first < dof {
-                nodes[first]
-            } else {
-                number(dof, strongest[dof], conditions, slides, &mut count)
+            nodes.push(match moved[dof] {
+                Some(node) => node,
+                None if first < dof => nodes[first],
+                None => number(dof, strongest[dof], conditions, slides, &mut count),
             });
         }
         let pinned = !conditions.iter().any(|c| matches!(c, Condition::TractionFree));

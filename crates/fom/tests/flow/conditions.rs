@@ -5,10 +5,9 @@ use super::setups::{Kind, Wobble, errors, mesh, order, parameters};
 use lumley_fem::{MeshDescription, PlanarMesh, Point};
 use lumley_fom::TimeScheme;
 use lumley_fom::flow::{
-    Condition, Flow, FlowError, FlowParameters, FlowSetup, FlowStart, Linearisation, SteadyLimits,
-    StepControl, VectorField, ViscousForm,
+    Condition, Flow, FlowError, FlowMotion, FlowParameters, FlowSetup, FlowStart, Linearisation,
+    SteadyLimits, StepControl, VectorField, ViscousForm,
 };
-use lumley_fom::motion::Motion;
 use std::sync::Arc;
 
 fn given(field: impl VectorField + 'static) -> Condition {
@@ -26,7 +25,7 @@ fn flow(
     parameters: FlowParameters,
     conditions: [Condition; 4],
     start: FlowStart,
-    motion: Option<Box<dyn Motion>>,
+    motion: FlowMotion,
 ) -> Result<Flow, FlowError> {
     let names = ["bottom", "right", "top", "left"].map(str::to_owned);
     let conditions = names.into_iter().zip(conditions).collect();
@@ -49,7 +48,8 @@ fn a_moving_mesh_keeps_a_uniform_flow() {
         let parameters = FlowParameters { scheme, ..fluid(ViscousForm::Stress) };
         let sides = [given(stream), Condition::TractionFree, given(stream), given(stream)];
         let start = FlowStart::Velocity(Arc::new(stream));
-        let mut flow = flow(grid, parameters, sides, start, Some(motion)).expect("a flow");
+        let mut flow =
+            flow(grid, parameters, sides, start, FlowMotion::Given(motion)).expect("a flow");
         for k in 0..12 {
             flow.step(if k % 3 == 0 { 0.04 } else { 0.05 }).expect("a step");
             let away = flow.velocity().iter().map(|u| (u[0] - 0.7).hypot(u[1] + 0.4));
@@ -69,7 +69,8 @@ fn a_free_boundary_carries_no_traction() {
         let sides = [given(shear), Condition::TractionFree, given(shear), given(shear)];
         let start = FlowStart::Velocity(Arc::new(shear));
         let mut flow =
-            flow(rectangle([6, 4], [2.0, 1.0]), fluid(form), sides, start, None).expect("a flow");
+            flow(rectangle([6, 4], [2.0, 1.0]), fluid(form), sides, start, FlowMotion::Still)
+                .expect("a flow");
         flow.settle(SteadyLimits::default(), |_, _| {}).expect("a steady flow");
         let pairs = flow.velocity().iter().zip(flow.dof_points());
         let away = pairs.map(|(u, p)| (u[0] - p[1]).hypot(u[1])).fold(0.0, f64::max);
@@ -86,8 +87,14 @@ fn slip_and_periodic_boundaries() {
         parameters.body_force = Some(Arc::new(|_: Point, _: f64| [0.5, -9.81]));
         let factor = 0.5 * parameters.density / parameters.viscosity;
         let sides = [Condition::NoSlip, with("left"), Condition::Slip, with("right")];
-        let mut flow = flow(rectangle(cells, [0.8, 0.6]), parameters, sides, FlowStart::Rest, None)
-            .expect("a flow");
+        let mut flow = flow(
+            rectangle(cells, [0.8, 0.6]),
+            parameters,
+            sides,
+            FlowStart::Rest,
+            FlowMotion::Still,
+        )
+        .expect("a flow");
         flow.settle(SteadyLimits::default(), |_, _| {}).expect("a steady flow");
         for (u, &[_, y]) in flow.velocity().iter().zip(flow.dof_points()) {
             let away = (u[0] - factor * y * (0.6 - 0.5 * y)).hypot(u[1]);
@@ -114,7 +121,8 @@ fn slip_on_a_curved_wall_lets_nothing_through() {
         let mesh = PlanarMesh::new(mesh).expect("a quarter of a ring");
         let sides = [Condition::Slip, given(turn), Condition::Slip, given(turn)];
         let start = FlowStart::Velocity(Arc::new(turn));
-        let mut flow = flow(mesh, fluid(ViscousForm::Stress), sides, start, None).expect("a flow");
+        let mut flow = flow(mesh, fluid(ViscousForm::Stress), sides, start, FlowMotion::Still)
+            .expect("a flow");
         flow.settle(SteadyLimits::default(), |_, _| {}).expect("a steady flow");
         let pairs = flow.velocity().iter().zip(flow.dof_points());
         pairs.map(|(u, p)| (u[0] + p[1]).hypot(u[1] - p[0])).fold(0.0, f64::max)
@@ -137,7 +145,8 @@ fn backflow_at_an_outlet_stays_bounded() {
     let sides = [Condition::NoSlip, Condition::TractionFree, Condition::NoSlip, given(jet)];
     let start = FlowStart::Velocity(Arc::new(swirl));
     let mut flow =
-        flow(rectangle([24, 12], [2.0, 1.0]), parameters, sides, start, None).expect("a flow");
+        flow(rectangle([24, 12], [2.0, 1.0]), parameters, sides, start, FlowMotion::Still)
+            .expect("a flow");
     for _ in 0..150 {
         flow.step(0.01).expect("a step");
     }
@@ -150,7 +159,8 @@ fn backflow_at_an_outlet_stays_bounded() {
 fn a_closed_domain_levels_its_pressure_and_counts_its_flux() {
     let sides = [0, 1, 2, 3].map(|_| given(exact::velocity));
     let start = || FlowStart::Velocity(Arc::new(exact::velocity));
-    let flow_in = flow(mesh(Kind::Both, 8), fluid(ViscousForm::Stress), sides, start(), None);
+    let flow_in =
+        flow(mesh(Kind::Both, 8), fluid(ViscousForm::Stress), sides, start(), FlowMotion::Still);
     let mut closed = flow_in.expect("a flow");
     assert!(closed.has_level_pressure());
     closed.step(0.1).expect("a step");
@@ -162,7 +172,7 @@ fn a_closed_domain_levels_its_pressure_and_counts_its_flux() {
         fluid(ViscousForm::Stress),
         sides,
         FlowStart::Rest,
-        None,
+        FlowMotion::Still,
     )
     .expect("a flow");
     let error = blocked.step(0.1).expect_err("nowhere to go").to_string();
@@ -182,7 +192,8 @@ fn a_turned_cavity_has_no_flux() {
     let sides = [Condition::NoSlip, Condition::NoSlip, lid, Condition::NoSlip];
     let mesh = PlanarMesh::new(turned).expect("a square");
     let mut flow =
-        flow(mesh, fluid(ViscousForm::Stress), sides, FlowStart::Rest, None).expect("a flow");
+        flow(mesh, fluid(ViscousForm::Stress), sides, FlowStart::Rest, FlowMotion::Still)
+            .expect("a flow");
     flow.step(0.1).expect("a step");
 }
 
@@ -199,10 +210,11 @@ fn parts_without_outlet_are_refused() {
     }
     let mesh = PlanarMesh::new(mesh).expect("two squares");
     let closed = [0, 1, 2, 3].map(|_| Condition::NoSlip);
-    let found = flow(mesh.clone(), fluid(ViscousForm::Stress), closed, FlowStart::Rest, None);
+    let found =
+        flow(mesh.clone(), fluid(ViscousForm::Stress), closed, FlowStart::Rest, FlowMotion::Still);
     assert!(matches!(found.err(), Some(FlowError::Parts { parts: 2, cell: 0 })));
     let open = [0, 1, 2, 3].map(|_| Condition::TractionFree);
-    flow(mesh, fluid(ViscousForm::Stress), open, FlowStart::Rest, None)
+    flow(mesh, fluid(ViscousForm::Stress), open, FlowStart::Rest, FlowMotion::Still)
         .expect("each has an outlet");
 }
 
@@ -216,7 +228,7 @@ fn adaptive_steps_follow_a_ramp() {
         fluid(ViscousForm::Laplacian),
         sides,
         FlowStart::Rest,
-        None,
+        FlowMotion::Still,
     )
     .expect("a flow");
     let control = StepControl { tolerance: 2e-3, shortest: 1e-4, longest: 0.1, velocity: 0.1 };
@@ -237,7 +249,8 @@ fn bad_setups_are_refused() {
     let free = || Condition::TractionFree;
     let periodic = |name: &str| Condition::Periodic { with: name.into() };
     let refused = |mesh, sides| {
-        let found = flow(mesh, fluid(ViscousForm::Stress), sides, FlowStart::Rest, None);
+        let found =
+            flow(mesh, fluid(ViscousForm::Stress), sides, FlowStart::Rest, FlowMotion::Still);
         found.err().expect("a bad setup").to_string()
     };
     let message = refused(grid(), [free(), periodic("left"), free(), free()]);
@@ -249,7 +262,7 @@ fn bad_setups_are_refused() {
     let bent = refused(mesh(Kind::Both, 4), [free(), periodic("left"), free(), periodic("right")]);
     assert!(bent.contains("do not meet"), "{bent}");
     let sides = [free(), free(), free(), given(|_, _| [f64::NAN, 0.0])];
-    let setup = flow(grid(), fluid(ViscousForm::Stress), sides, FlowStart::Rest, None);
+    let setup = flow(grid(), fluid(ViscousForm::Stress), sides, FlowStart::Rest, FlowMotion::Still);
     let error = setup.expect("sound but for its numbers").step(0.1).expect_err("no number");
     assert!(matches!(error, FlowError::NotFinite { .. }), "{error}");
     let error = Flow::step(&mut plain(), f64::NAN).expect_err("no step");
@@ -258,6 +271,12 @@ fn bad_setups_are_refused() {
 
 fn plain() -> Flow {
     let sides = [0, 1, 2, 3].map(|_| Condition::TractionFree);
-    flow(rectangle([3, 3], [1.0, 1.0]), fluid(ViscousForm::Stress), sides, FlowStart::Rest, None)
-        .expect("a flow")
+    flow(
+        rectangle([3, 3], [1.0, 1.0]),
+        fluid(ViscousForm::Stress),
+        sides,
+        FlowStart::Rest,
+        FlowMotion::Still,
+    )
+    .expect("a flow")
 }

@@ -1,48 +1,17 @@
 //! Loads with known answers.
 
-use super::setups::{order, parameters};
-use lumley_fem::{MeshDescription, PlanarMesh, Point};
-use lumley_fom::TimeScheme;
+use super::setups::{INNER, OUTER, fluid, order, ring};
+use lumley_fem::Point;
 use lumley_fom::flow::{
-    Condition, Flow, FlowParameters, FlowSetup, FlowStart, Linearisation, SteadyLimits, ViscousForm,
+    Condition, Flow, FlowMotion, FlowParameters, FlowSetup, FlowStart, SteadyLimits, ViscousForm,
 };
 use lumley_fom::motion::{
     MeshMotion, MotionFunction, MotionParameters, MovingBoundary, PrescribedMotion, RigidMotion,
 };
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
-const INNER: f64 = 0.5;
-const OUTER: f64 = 1.5;
 const SPIN: f64 = 0.8;
-
-/// A ring with a closed inside `bottom` and outside `top`, as the ends of the bent strip are made one.
-fn ring(n: usize) -> PlanarMesh {
-    let map = |[x, y]: Point| {
-        let (sin, cos) = (-TAU * x).sin_cos();
-        let radius = INNER + (OUTER - INNER) * y;
-        [radius * cos, radius * sin]
-    };
-    let mut mesh = MeshDescription::structured([4 * n, n], |[i, _]| i % 2 == 0, map);
-    // The nodes at the end of each row are those at its beginning.
-    let row = 8 * n + 1;
-    let first = |node: &mut usize| {
-        *node -= if *node % row == row - 1 { row - 1 } else { 0 };
-        *node -= *node / row;
-    };
-    mesh.triangles.iter_mut().flatten().for_each(first);
-    mesh.quadrilaterals.iter_mut().flatten().for_each(first);
-    mesh.boundaries.retain(|boundary| ["bottom", "top"].contains(&boundary.name.as_str()));
-    mesh.boundaries.iter_mut().flat_map(|b| &mut b.edges).flatten().for_each(first);
-    let points = mesh.points.iter().enumerate();
-    mesh.points = points.filter(|(k, _)| k % row != row - 1).map(|(_, point)| *point).collect();
-    PlanarMesh::new(mesh).expect("a ring")
-}
-
-fn fluid(form: ViscousForm) -> FlowParameters {
-    let parameters = parameters(TimeScheme::Bdf2, form, Linearisation::default());
-    FlowParameters { body_force: None, ..parameters }
-}
 
 /// Flow between cylinders, the inner of which turns (Couette): the moment on it is `−4π μ Ω a² b²/(b² − a²)`, whatever
 /// the viscous form.
@@ -62,7 +31,7 @@ fn moment_on_a_turning_cylinder() {
                     ("top".into(), Condition::NoSlip),
                 ],
                 start: FlowStart::Stokes,
-                motion: None,
+                motion: FlowMotion::Still,
                 parallel: false,
             })
             .expect("a flow");
@@ -107,7 +76,7 @@ fn impulse(n: usize) -> f64 {
         parameters: FlowParameters { viscosity: 1e-6, ..fluid(ViscousForm::Stress) },
         conditions: ["bottom", "top"].map(|name| (name.into(), Condition::NoSlip)).into(),
         start: FlowStart::Rest,
-        motion: Some(Box::new(motion)),
+        motion: FlowMotion::Given(Box::new(motion)),
         parallel: false,
     })
     .expect("a flow");
@@ -130,7 +99,7 @@ fn a_turning_body_in_a_closed_domain() {
         parameters: fluid(ViscousForm::Stress),
         conditions: ["bottom", "top"].map(|name| (name.into(), Condition::NoSlip)).into(),
         start: FlowStart::Rest,
-        motion: Some(Box::new(motion)),
+        motion: FlowMotion::Given(Box::new(motion)),
         parallel: false,
     })
     .expect("a flow");

@@ -1,9 +1,11 @@
 //! The flow solver.
 
+mod bodies;
 mod conditions;
 mod exact;
 mod loads;
 mod manufactured;
+mod pendulum;
 mod reference;
 mod restart;
 mod setups;

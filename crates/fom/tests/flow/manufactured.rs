@@ -4,7 +4,7 @@ use super::exact;
 use super::setups::{KINDS, Kind, Wobble, enclosed, errors, mesh, order, parameters};
 use lumley_fem::Point;
 use lumley_fom::TimeScheme;
-use lumley_fom::flow::{Linearisation, SteadyLimits, StepControl, ViscousForm};
+use lumley_fom::flow::{FlowMotion, Linearisation, SteadyLimits, StepControl, ViscousForm};
 use std::sync::Arc;
 
 const LINEARISATIONS: [Linearisation; 3] =
@@ -18,7 +18,7 @@ fn orders_in_space() {
             let found = [32, 64].map(|n| {
                 let mut parameters = parameters(TimeScheme::Bdf2, form, Linearisation::default());
                 parameters.body_force = Some(Arc::new(exact::steady_force));
-                let mut flow = enclosed(mesh(kind, n), parameters, None, false);
+                let mut flow = enclosed(mesh(kind, n), parameters, FlowMotion::Still, false);
                 flow.settle(SteadyLimits::default(), |_, _| {}).expect("a steady flow");
                 errors(&flow)
             });
@@ -41,7 +41,7 @@ fn orders_in_space_on_a_moving_mesh() {
             let motion = Wobble::of(&grid, 20.0);
             let parameters =
                 parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::default());
-            let mut flow = enclosed(grid, parameters, Some(motion), false);
+            let mut flow = enclosed(grid, parameters, FlowMotion::Given(motion), false);
             for _ in 0..16 {
                 flow.step(5e-4).expect("a step");
             }
@@ -64,7 +64,7 @@ fn orders_in_time() {
                 let grid = mesh(Kind::Both, 6);
                 let motion = Wobble::of(&grid, 4.0);
                 let parameters = parameters(scheme, ViscousForm::Stress, linearisation);
-                let mut flow = enclosed(grid, parameters, Some(motion), false);
+                let mut flow = enclosed(grid, parameters, FlowMotion::Given(motion), false);
                 for _ in 0..steps {
                     flow.step(1.0 / steps as f64).expect("a step");
                 }
@@ -91,7 +91,7 @@ fn adaptive_steps_keep_the_error() {
         let motion = Wobble::of(&grid, 4.0);
         let parameters =
             parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::default());
-        let mut flow = enclosed(grid, parameters, Some(motion), false);
+        let mut flow = enclosed(grid, parameters, FlowMotion::Given(motion), false);
         let control = StepControl { tolerance, shortest: 1e-4, longest: 0.2, velocity: 0.0 };
         let (mut lengths, mut worst) = (Vec::new(), 0.0_f64);
         for end in [0.4, 1.0] {

@@ -15,7 +15,7 @@ use lumley_fem::space::NodalSpace;
 use lumley_fem::{MeshDescription, PlanarMesh, Point};
 use lumley_fom::TimeScheme;
 use lumley_fom::flow::{
-    Condition, Flow, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
+    Condition, Flow, FlowMotion, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
 };
 use lumley_fom::motion::{Motion, MotionError};
 use plain::{Instant, Plain, distance};
@@ -95,7 +95,7 @@ fn side_by_side(
         parameters: parameters.clone(),
         conditions: names.into_iter().zip(conditions.clone()).collect(),
         start: FlowStart::Velocity(Arc::new(start)),
-        motion: Some(Box::new(motion.clone())),
+        motion: FlowMotion::Given(Box::new(motion.clone())),
         parallel: false,
     })
     .expect("a sound setup");

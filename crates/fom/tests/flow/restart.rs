@@ -1,14 +1,14 @@
 //! Checkpoints and threads: the same bits.
 
 use super::setups::{Kind, Wobble, enclosed, mesh, parameters};
-use lumley_fom::flow::{Flow, Linearisation, ViscousForm};
+use lumley_fom::flow::{Flow, FlowMotion, Linearisation, ViscousForm};
 use lumley_fom::{CheckpointError, TimeScheme};
 
 fn moving(parallel: bool) -> Flow {
     let grid = mesh(Kind::Both, 12);
     let motion = Wobble::of(&grid, 4.0);
     let parameters = parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::Tangent);
-    enclosed(grid, parameters, Some(motion), parallel)
+    enclosed(grid, parameters, FlowMotion::Given(motion), parallel)
 }
 
 fn bits(flow: &Flow) -> Vec<u64> {
@@ -56,7 +56,7 @@ fn damaged_and_foreign_checkpoints_are_refused() {
     let mut other = {
         let parameters = parameters(TimeScheme::Bdf2, ViscousForm::Stress, Linearisation::Newton);
         let grid = mesh(Kind::Both, 12);
-        enclosed(grid, parameters, None, false)
+        enclosed(grid, parameters, FlowMotion::Still, false)
     };
     let before = bits(&other);
     let foreign = other.restore(&mut saved.as_slice());

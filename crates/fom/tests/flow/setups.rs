@@ -7,7 +7,7 @@ use lumley_fem::quadrature::rule;
 use lumley_fem::{MeshDescription, PlanarMesh, Point};
 use lumley_fom::TimeScheme;
 use lumley_fom::flow::{
-    Condition, Flow, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
+    Condition, Flow, FlowMotion, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
 };
 use lumley_fom::motion::{Motion, MotionError};
 use std::sync::Arc;
@@ -83,11 +83,44 @@ pub fn parameters(
     }
 }
 
+/// Radii of the ring, in m.
+pub const INNER: f64 = 0.5;
+pub const OUTER: f64 = 1.5;
+
+/// A ring with a closed inside `bottom` and outside `top`, as the ends of the bent strip are made one.
+pub fn ring(n: usize) -> PlanarMesh {
+    let map = |[x, y]: Point| {
+        let (sin, cos) = (-std::f64::consts::TAU * x).sin_cos();
+        let radius = INNER + (OUTER - INNER) * y;
+        [radius * cos, radius * sin]
+    };
+    let mut mesh = MeshDescription::structured([4 * n, n], |[i, _]| i % 2 == 0, map);
+    // The nodes at the end of each row are those at its beginning.
+    let row = 8 * n + 1;
+    let first = |node: &mut usize| {
+        *node -= if *node % row == row - 1 { row - 1 } else { 0 };
+        *node -= *node / row;
+    };
+    mesh.triangles.iter_mut().flatten().for_each(first);
+    mesh.quadrilaterals.iter_mut().flatten().for_each(first);
+    mesh.boundaries.retain(|boundary| ["bottom", "top"].contains(&boundary.name.as_str()));
+    mesh.boundaries.iter_mut().flat_map(|b| &mut b.edges).flatten().for_each(first);
+    let points = mesh.points.iter().enumerate();
+    mesh.points = points.filter(|(k, _)| k % row != row - 1).map(|(_, point)| *point).collect();
+    PlanarMesh::new(mesh).expect("a ring")
+}
+
+/// The fluid of the exact flow without its force.
+pub fn fluid(form: ViscousForm) -> FlowParameters {
+    let parameters = parameters(TimeScheme::Bdf2, form, Linearisation::default());
+    FlowParameters { body_force: None, ..parameters }
+}
+
 /// The exact flow's boundary values all round.
 pub fn enclosed(
     mesh: PlanarMesh,
     parameters: FlowParameters,
-    motion: Option<Box<dyn Motion>>,
+    motion: FlowMotion,
     parallel: bool,
 ) -> Flow {
     let given = || Condition::Velocity(Arc::new(exact::velocity));

@@ -5,7 +5,7 @@ use crate::error::OtherDomain;
 use crate::model::{FlowModel, Stepping};
 use lumley_fem::space::NodalSpace;
 use lumley_fem::{PlanarMesh, Point};
-use lumley_fom::flow::{Flow, FlowSetup, FlowStart, VectorField};
+use lumley_fom::flow::{Flow, FlowMotion, FlowSetup, FlowStart, VectorField};
 use lumley_fom::motion::{MeshMotion, Motion, MovingBoundary, PrescribedMotion};
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +20,10 @@ pub fn planar_flow(case: &FlowCase, threads: usize) -> Result<FlowModel, Error> 
         parameters: case.parameters.clone(),
         conditions: case.conditions.clone(),
         start: start(case)?,
-        motion: case.motion.as_ref().map(|choice| motion(case, choice)).transpose()?,
+        motion: match &case.motion {
+            Some(choice) => FlowMotion::Given(motion(case, choice)?),
+            None => FlowMotion::Still,
+        },
         parallel: threads > 1,
     };
     let flow = Flow::new(setup).map_err(Error::Flow)?;
