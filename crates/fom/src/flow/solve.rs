@@ -58,10 +58,11 @@ impl Flow {
         self.slides.follow(&self.mesh, &mut self.work.directions[..self.slides.count()]);
     }
 
-    /// Starts the linear solver from `work.base` and `work.new_pressure`.
-    pub(super) fn guess(&mut self) {
-        let Self { unknowns, rigid, bodies, work, .. } = self;
+    /// Linearises the equations of the bodies, and starts the linear solver from `work.base` and `work.new_pressure`.
+    pub(super) fn guess(&mut self, terms: &Terms) {
+        let Self { unknowns, slides, rigid, bodies, work, .. } = self;
         if let Some(bodies) = bodies {
+            rigid.linearise(bodies.scheme(), terms, &mut work.directions[slides.count()..]);
             rigid.guess(bodies.scheme(), &mut work.solution);
         }
         for (&node, velocity) in unknowns.nodes.iter().zip(&work.base) {
@@ -91,13 +92,9 @@ impl Flow {
         if self.unknowns.pinned() {
             terms.divergence = self.given.divergence(&self.mesh, time)?;
         }
-        let Self { system, space, pattern, slides, rigid, bodies, given, work, .. } = self;
+        let Self { system, space, pattern, rigid, bodies, given, work, .. } = self;
         let wind = work.wind.iter_mut().zip(&work.base).zip(&self.mesh_velocity);
         wind.for_each(|((wind, u), w)| *wind = [0, 1].map(|d| u[d] - w[d]));
-        if let Some(bodies) = bodies {
-            let directions = &mut work.directions[slides.count()..];
-            rigid.linearise(bodies.scheme(), &terms, directions);
-        }
         let fields = NodalFields {
             nodes: self.mesh.nodes(),
             wind: &work.wind,

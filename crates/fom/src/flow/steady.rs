@@ -54,7 +54,7 @@ impl Flow {
         self.work.base.copy_from_slice(&self.velocity[0]);
         self.work.new_pressure.copy_from_slice(&self.pressure[0]);
         self.hold_base();
-        self.guess();
+        self.guess(&self.terms(0.0, false));
         let mut report = SteadyReport::default();
         let mut change = f64::INFINITY;
         while change > limits.tolerance {
@@ -85,8 +85,8 @@ impl Flow {
         self.set_force(self.time)?;
         // At rest nothing is carried.
         self.work.base.copy_from_slice(&self.mesh_velocity);
-        self.guess();
         let terms = self.terms(0.0, false);
+        self.guess(&terms);
         self.solve(&terms, self.time)?;
         self.take_steady();
         Ok(())

@@ -1,3 +1,4 @@
+use super::cells::Terms;
 use super::solve::Change;
 use super::{Flow, FlowError, Linearisation};
 use crate::linear::LaggedStep;
@@ -73,13 +74,13 @@ impl Flow {
     }
 
     /// Prepares the equations at `time`, where the mesh is then, linearised about `work.base`.
-    fn prepare(&mut self, time: f64, formula: RateFormula) -> Result<(), FlowError> {
+    fn prepare(&mut self, terms: &Terms, time: f64, formula: RateFormula) -> Result<(), FlowError> {
         self.move_mesh(time, formula)?;
         self.set_given(time)?;
         self.set_force(time)?;
         self.subtract_history(formula);
         self.hold_base();
-        self.guess();
+        self.guess(terms);
         Ok(())
     }
 
@@ -95,8 +96,9 @@ impl Flow {
         let past = self.nodes[0].iter().zip(&self.nodes[1]);
         let moves = work.node_velocity.iter_mut().zip(self.mesh.nodes()).zip(past);
         for ((velocity, new), (now, before)) in moves {
+            // As differences, so that a node which stays has no velocity at all.
             *velocity = [0, 1]
-                .map(|d| formula.new * new[d] + formula.now * now[d] + formula.before * before[d]);
+                .map(|d| formula.new * (new[d] - now[d]) + formula.before * (before[d] - now[d]));
         }
         self.places.spread(&work.node_velocity, &mut self.mesh_velocity);
         self.places.spread(self.mesh.nodes(), &mut work.dof_points);
@@ -136,7 +138,7 @@ impl Flow {
         let linearisation = self.parameters.linearisation;
         let newton = linearisation == Linearisation::Newton;
         let terms = self.terms(formula.new, linearisation != Linearisation::Extrapolation);
-        self.prepare(time, formula)?;
+        self.prepare(&terms, time, formula)?;
         loop {
             step.count(self.solve(&terms, time)?);
             let Change { share: change, largest } = self.change();
@@ -154,7 +156,7 @@ impl Flow {
             }
             self.work.base.copy_from_slice(&self.work.new_velocity);
             if apart > 0.0 {
-                self.prepare(time, formula)?;
+                self.prepare(&terms, time, formula)?;
             }
         }
     }

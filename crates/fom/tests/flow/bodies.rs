@@ -60,23 +60,22 @@ fn a_disc_feels_its_added_mass() {
     let displaced = parameters.density * PI * a;
     let added = displaced * (b + a) / (b - a);
     let (dt, gravity) = (1e-3, [3.0, -4.0]);
-    for mass in [0.0, 0.1 * displaced, displaced, 50.0 * displaced] {
+    for mass in [0.0, 0.1 * displaced, 2.0 * displaced, 50.0 * displaced] {
         let errors = [12, 24].map(|n| {
             let bodies = vec![disc(mass, cartesian())];
             let setup = BodySetup { bodies, gravity, ..BodySetup::default() };
             let mut flow = flow(n, parameters.clone(), setup).expect("a flow");
             flow.step(dt).expect("a step");
-            let weight = gravity.map(|g| (mass - displaced) * g);
-            for (v, f) in velocities(&flow).into_iter().zip(weight) {
-                let load = mass * v / dt - f;
-                let force = if f == weight[0] { 0 } else { 1 };
-                let gap = (load - flow.loads()[0].force[force]).abs();
-                assert!(gap < 1e-6 * displaced, "{mass}: the load is that of (16), {gap:e}");
+            // Of the polygon with curved edges that the disc is.
+            let lifted = flow.bodies().expect("bodies").tree().bodies()[0].displaced;
+            let weight = gravity.map(|g| (mass - lifted.expect("it is wet").mass) * g);
+            let velocity = velocities(&flow);
+            for d in 0..2 {
+                let gap = mass * velocity[d] / dt - weight[d] - flow.loads()[0].force[d];
+                assert!(gap.abs() < 1e-9 * displaced, "{mass}: the load is that of (16), {gap:e}");
             }
-            if weight[0] == 0.0 {
-                return 0.0;
-            }
-            velocities(&flow)[0] * (mass + added) / (weight[0] * dt) - 1.0
+            let expected = (mass - displaced) * gravity[0] * dt / (mass + added);
+            velocity[0] / expected - 1.0
         });
         let [coarse, fine] = errors.map(f64::abs);
         assert!(fine < 0.04 && fine <= 0.6 * coarse, "{mass}: {errors:?}");
@@ -163,6 +162,7 @@ fn bodies_have_the_order_of_the_scheme() {
         for mass in [0.0, 2.0] {
             let [a, b, c] =
                 [10, 20, 40].map(|n| positions(&swing(3, 0.8 / n as f64, scheme, mass, n))[0]);
+            eprintln!("{scheme:?} {mass} {a} {b} {c}");
             let found = order((a - b).abs(), (b - c).abs());
             assert!((found - expected).abs() < 0.3, "{scheme:?}, {mass}: order {found}");
         }
