@@ -1,17 +1,18 @@
 //! Times steps of the flow past the cylinder of Schäfer and Turek (1996), case 2D-2, on one thread.
 //!
 //! ```text
-//! flow_timing SIZE STEP END [moving]
+//! flow_timing SIZE STEP END [moving|free]
 //! ```
 //!
 //! SIZE scales the cells of the mesh, STEP and END are in s; with `moving` the cylinder swings across the channel, so
-//! that the mesh moves and every matrix differs. Prints a line of JSON: unknowns, cells, CPU ms of a step (mean over all
+//! that the mesh moves and every matrix differs; with `free` it is a body on springs that the flow moves. Prints a line of JSON: unknowns, cells, CPU ms of a step (mean over all
 //! but the first two), peak memory, and over the last half of the run the largest coefficients of drag and
 //! lift and the Strouhal number.
 
 use lumley_fem::PlanarMesh;
 use lumley_fem::generate::Channel;
 use lumley_fom::TimeScheme;
+use lumley_fom::coupling::BodySetup;
 use lumley_fom::flow::{
     Condition, Flow, FlowMotion, FlowParameters, FlowSetup, FlowStart, Linearisation, ViscousForm,
 };
@@ -27,11 +28,11 @@ use std::sync::Arc;
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = env::args().skip(1).collect();
     let number = |k: usize| -> Result<f64, Box<dyn Error>> {
-        Ok(arguments.get(k).ok_or("flow_timing SIZE STEP END [moving]")?.parse()?)
+        Ok(arguments.get(k).ok_or("flow_timing SIZE STEP END [moving|free]")?.parse()?)
     };
     let (size, dt, end) = (number(0)?, number(1)?, number(2)?);
-    let moving = arguments.iter().any(|a| a == "moving");
-    let mut flow = flow(size, moving)?;
+    let motion = arguments.get(3).map_or("still", String::as_str);
+    let mut flow = flow(size, motion)?;
     let steps = (end / dt).round();
     let mut series = Vec::new();
     let mut counts = [0; 2];
@@ -68,7 +69,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn flow(size: f64, moving: bool) -> Result<Flow, Box<dyn Error>> {
+fn flow(size: f64, motion: &str) -> Result<Flow, Box<dyn Error>> {
     let channel = serde_json::from_value::<Channel>(json!({
         "x": [0, 2.2], "y": [0, 0.41], "size": 0.06 * size, "growth": 0.05,
         "bodies": [{
@@ -80,13 +81,20 @@ fn flow(size: f64, moving: bool) -> Result<Flow, Box<dyn Error>> {
     }))?;
     let mesh = PlanarMesh::new(channel.mesh()?)?;
     let inflow = |[_, y]: [f64; 2], _| [6.0 * y * (0.41 - y) / (0.41 * 0.41), 0.0];
-    let motion = if moving {
-        let cylinder = MovingBoundary { name: "cylinder".into(), pivot: [0.2, 0.2] };
-        let motion = MeshMotion::new(&mesh, &[cylinder], &MotionParameters::default())?;
-        let swing = |t: f64| RigidMotion { translation: [0.0, 0.03 * (12.0 * t).sin()], angle: 0.0 };
-        FlowMotion::Given(Box::new(PrescribedMotion::new(motion, vec![Arc::new(swing)])?))
-    } else {
-        FlowMotion::Still
+    let motion = match motion {
+        "still" => FlowMotion::Still,
+        "moving" => swinging(&mesh)?,
+        "free" => FlowMotion::Bodies(BodySetup {
+            bodies: vec![serde_json::from_value(json!({
+                "name": "cylinder", "mass": 0.02, "centre": [0.2, 0.2], "boundary": "cylinder",
+                "joint": {
+                    "kind": "cartesian",
+                    "spring_x": { "stiffness": 40.0, "damping": 0.5 }, "spring_y": { "stiffness": 10.0, "damping": 0.1 }
+                }
+            }))?],
+            ..BodySetup::default()
+        }),
+        other => return Err(format!("{other}: expected moving or free").into()),
     };
     Ok(Flow::new(FlowSetup {
         mesh,
@@ -109,6 +117,14 @@ fn flow(size: f64, moving: bool) -> Result<Flow, Box<dyn Error>> {
         motion,
         parallel: false,
     })?)
+}
+
+/// A cylinder that swings across the channel.
+fn swinging(mesh: &PlanarMesh) -> Result<FlowMotion, Box<dyn Error>> {
+    let cylinder = MovingBoundary { name: "cylinder".into(), pivot: [0.2, 0.2] };
+    let motion = MeshMotion::new(mesh, &[cylinder], &MotionParameters::default())?;
+    let swing = |t: f64| RigidMotion { translation: [0.0, 0.03 * (12.0 * t).sin()], angle: 0.0 };
+    Ok(FlowMotion::Given(Box::new(PrescribedMotion::new(motion, vec![Arc::new(swing)])?)))
 }
 
 /// CPU time of this process, in s.

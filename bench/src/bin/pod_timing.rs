@@ -70,7 +70,9 @@ fn time(
 /// Largest entry of `ΦᵀWΦ - I`.
 fn orthonormality_defect(basis: &ReducedBasis, w: &Diagonal) -> f64 {
     let phi: MatRef<'_, f64> = basis.modes.as_ref();
-    (basis.project(phi, w).expect("weights in memory") - Mat::<f64>::identity(phi.ncols(), phi.ncols())).norm_max()
+    (basis.project(phi, w).expect("weights in memory")
+        - Mat::<f64>::identity(phi.ncols(), phi.ncols()))
+    .norm_max()
 }
 
 /// CPU time of the process in s, all threads together.

@@ -3,7 +3,8 @@
 use super::setups::{INNER, OUTER, fluid, order, ring};
 use lumley_body::joint::{Cartesian, Free, Joint, Revolute, Slider, Spring};
 use lumley_body::{BodyState, RigidBody};
-use lumley_fem::Point;
+use lumley_fem::generate::Channel;
+use lumley_fem::{PlanarMesh, Point};
 use lumley_fom::TimeScheme;
 use lumley_fom::coupling::{BodySetup, Coupling};
 use lumley_fom::flow::{
@@ -141,6 +142,7 @@ fn a_disc_spins_down() {
     }
 }
 
+/// A disc on a spring in fluid at rest, after so many steps since it was let go.
 fn swing(n: usize, dt: f64, scheme: TimeScheme, mass: f64, steps: usize) -> Flow {
     let spring = Some(Spring { stiffness: 8.0, rest: 0.0, damping: 0.0 });
     let joint = Joint::Prismatic(Slider { along: [0.6, 0.8], to: None, spring });
@@ -162,7 +164,6 @@ fn bodies_have_the_order_of_the_scheme() {
         for mass in [0.0, 2.0] {
             let [a, b, c] =
                 [20, 40, 80].map(|n| positions(&swing(3, 0.8 / n as f64, scheme, mass, n))[0]);
-            eprintln!("{scheme:?} {mass} {a} {b} {c}");
             let found = order((a - b).abs(), (b - c).abs());
             assert!((found - expected).abs() < 0.3, "{scheme:?}, {mass}: order {found}");
         }
@@ -205,6 +206,59 @@ fn a_restart_with_bodies_makes_the_same_bits() {
         }
     }
     assert_eq!(bits(&whole), bits(&resumed));
+}
+
+#[test]
+fn two_threads_move_bodies_by_the_same_bits() {
+    let [one, two] = [false, true].map(|parallel| {
+        let mut flow = mounted(parallel);
+        for _ in 0..3 {
+            flow.step(0.1).expect("a step");
+        }
+        bits(&flow)
+    });
+    assert_eq!(one, two);
+}
+
+/// A cylinder that a force of 7.5 N/m pulls across a stream against a spring: it goes three diameters.
+fn mounted(parallel: bool) -> Flow {
+    let channel: Channel = toml::from_str(
+        "x = [-10, 20]\ny = [-10, 10]\nsize = 2.5\ngrowth = 0.3
+         [[bodies]]\nname = 'cylinder'\nsize = 0.25\nshape = { kind = 'disc', centre = [0, 0], radius = 0.5 }
+         layers = { first = 0.06, growth = 1.4, count = 3 }",
+    )
+    .expect("a channel");
+    let cylinder: RigidBody = toml::from_str(
+        "name = 'cylinder'\nmass = 2.5\ncentre = [0, 0]\nboundary = 'cylinder'
+         joint = { kind = 'prismatic', along = [0, 1], spring = { stiffness = 2.37, damping = 3 } }",
+    )
+    .expect("a cylinder");
+    let stream: fn(Point, f64) -> Point = |_, _| [1.0, 0.0];
+    let sides = ["left", "bottom", "top"]
+        .map(|side| (side.to_owned(), Condition::Velocity(std::sync::Arc::new(stream))));
+    let rest = [("right", Condition::TractionFree), ("cylinder", Condition::NoSlip)]
+        .map(|(name, condition)| (name.to_owned(), condition));
+    let setup = BodySetup { bodies: vec![cylinder], gravity: [0.0, 4.4], ..BodySetup::default() };
+    Flow::new(FlowSetup {
+        mesh: PlanarMesh::new(channel.mesh().expect("a mesh")).expect("a sound mesh"),
+        parameters: FlowParameters { density: 1.0, viscosity: 0.01, ..fluid(ViscousForm::Stress) },
+        conditions: sides.into_iter().chain(rest).collect(),
+        start: FlowStart::Velocity(std::sync::Arc::new(stream)),
+        motion: FlowMotion::Bodies(setup),
+        parallel,
+    })
+    .expect("a flow")
+}
+
+#[test]
+fn a_mounted_cylinder_goes_three_diameters() {
+    let mut flow = mounted(false);
+    let mut farthest = 0.0_f64;
+    for _ in 0..150 {
+        flow.step(0.05).expect("a step");
+        farthest = farthest.max(positions(&flow)[0]);
+    }
+    assert!(farthest > 3.0, "{farthest}");
 }
 
 /// The same bodies by both couplings: close where the added mass is small.
