@@ -170,6 +170,17 @@ pub enum FlowError {
         /// The other boundary.
         with: String,
     },
+    /// An error that explicit coupling leads to.
+    #[error(
+        "{source}. But with explicit coupling no step is small enough here: the bodies undo about {share:.2} of every change of their \
+         velocity, because of the fluid that they take with them, and from about 0.7 on that grows: take the monolithic coupling"
+    )]
+    AddedMass {
+        /// Added mass over that of the bodies, estimated.
+        share: f64,
+        /// What went wrong.
+        source: Box<FlowError>,
+    },
     /// A step that does not find where the bodies are.
     #[error(
         "at t = {time} s the bodies are still {apart:.1e} of their size from where the mesh has them after {iterations} \

@@ -8,6 +8,9 @@ use crate::time_scheme::RateFormula;
 const NEWTON_TOLERANCE: f64 = 1e-9;
 /// Most linear systems in a step.
 const MOST_SYSTEMS: usize = 20;
+/// Above this share of the added mass in that of the bodies, estimated with the mass of the fluid that they displace, explicit
+/// coupling is unstable or near it.
+const LARGEST_ADDED_MASS: f64 = 0.7;
 /// How far a body may be, over its radius, from where it was foreseen: less than the error of a step that follows its
 /// motion.
 const PLACE_TOLERANCE: f64 = 1e-3;
@@ -49,7 +52,9 @@ impl Flow {
         let step = self.compute(dt)?;
         let time = self.time + dt;
         if self.parameters.linearisation != Linearisation::Newton {
-            self.stability.watch(time, step.extrapolation_error, step.largest_velocity)?;
+            let (error, largest) = (step.extrapolation_error, step.largest_velocity);
+            let watched = self.stability.watch(time, error, largest);
+            watched.map_err(|error| self.explain(error))?;
         }
         self.accept(time, dt);
         Ok(step)
@@ -70,7 +75,15 @@ impl Flow {
             bodies.foresee(dt, formula, ahead, &self.loads)?;
         }
         self.extrapolate(ahead);
-        self.solve_step(time, formula)
+        self.solve_step(time, formula).map_err(|error| self.explain(error))
+    }
+
+    /// Tells an error that explicit coupling makes from one that a smaller step would mend.
+    fn explain(&self, source: FlowError) -> FlowError {
+        match self.added_mass_share().filter(|share| *share > LARGEST_ADDED_MASS) {
+            Some(share) => FlowError::AddedMass { share, source: Box::new(source) },
+            None => source,
+        }
     }
 
     /// Prepares the equations at `time`, where the mesh is then, linearised about `work.base`.
