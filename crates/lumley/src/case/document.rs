@@ -2,8 +2,8 @@ use super::error::{CaseError, Place};
 use super::suggest::nearest;
 use serde::de::DeserializeOwned;
 use std::path::{Path, PathBuf};
-use toml::de::{DeTable, DeValue};
-use toml::{Table, Value};
+use toml::de::{DeArray, DeTable, DeValue};
+use toml::{Spanned, Table, Value};
 
 /// What a case is a case of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,7 +116,7 @@ impl Document {
         self.line("quick").is_some()
     }
 
-    /// The line of `key`, or of the value that holds it; `rom.models.2.sigma` goes into a list.
+    /// The line of `key`, or of the value that holds it; `rom.models.2.sigma` and `bodies.disc.mass` go into lists.
     fn line(&self, key: &str) -> Option<usize> {
         let root = DeTable::parse(&self.text).ok()?;
         let (first, rest) = key.split_once('.').map_or((key, None), |(f, r)| (f, Some(r)));
@@ -124,7 +124,7 @@ impl Document {
         for part in rest.into_iter().flat_map(|r| r.split('.')) {
             value = match value.get_ref() {
                 DeValue::Table(table) => table.get(part)?,
-                DeValue::Array(list) => match part.parse().ok().and_then(|k: usize| list.get(k)) {
+                DeValue::Array(list) => match entry(list, part) {
                     Some(entry) => entry,
                     None => break,
                 },
@@ -222,21 +222,56 @@ fn overlay(table: &mut Table, over: Table) {
     }
 }
 
+/// What stands in a list at a number, counted from 0, or under a name.
+fn entry<'a, 'i>(list: &'a DeArray<'i>, part: &str) -> Option<&'a Spanned<DeValue<'i>>> {
+    let name = |value: &&Spanned<DeValue<'i>>| {
+        value.get_ref().get("name").and_then(|name| name.get_ref().as_str()) == Some(part)
+    };
+    let number = || part.parse().ok().and_then(|k: usize| list.get(k));
+    list.iter().find(name).or_else(number)
+}
+
+/// Puts a value under a key, such as `piston.mass`, or `bodies.disc.mass` in a list of tables that have names.
 fn set(table: &mut Table, key: &str, value: Value) -> Result<(), CaseError> {
-    let (path, last) = key.rsplit_once('.').map_or((None, key), |(p, l)| (Some(p), l));
-    let mut table = table;
-    for part in path.into_iter().flat_map(|p| p.split('.')) {
-        let entry = table.entry(part.to_owned()).or_insert_with(|| Value::Table(Table::new()));
-        table = entry.as_table_mut().ok_or_else(|| CaseError::Setting { text: key.to_owned() })?;
+    let mut parts = key.split('.');
+    let first = parts.next().unwrap_or_default();
+    let mut place = table.entry(first).or_insert_with(|| Value::Table(Table::new()));
+    let mut path = first.to_owned();
+    for part in parts {
+        place = match place {
+            Value::Table(table) => table.entry(part).or_insert_with(|| Value::Table(Table::new())),
+            Value::Array(list) => {
+                let known = list.iter().filter_map(|entry| named(entry).map(str::to_owned));
+                let known = known.collect();
+                let found = list.iter_mut().find(|entry| named(entry) == Some(part));
+                found.ok_or_else(|| CaseError::Entry {
+                    key: key.to_owned(),
+                    list: path.clone(),
+                    name: part.to_owned(),
+                    known,
+                })?
+            }
+            _ => return Err(CaseError::Setting { text: key.to_owned() }),
+        };
+        path = format!("{path}.{part}");
     }
-    table.insert(last.to_owned(), value);
+    *place = value;
     Ok(())
+}
+
+/// The name of a table in a list.
+fn named(entry: &Value) -> Option<&str> {
+    entry.get("name")?.as_str()
 }
 
 /// A parser's message in words of the case file, not of the program.
 fn plain(message: &str) -> String {
     let mut text = message.trim_end().replace("expected f64", "expected a number");
     text = text.replace("expected usize", "expected a whole number");
+    text = text.replace(
+        "invalid type: map, expected a sequence",
+        "one table, expected a list of tables: double the brackets, [[ ]]",
+    );
     while let Some((before, rest)) = text.split_once("struct ") {
         let end = rest.find(|c: char| !c.is_alphanumeric()).unwrap_or(rest.len());
         text = format!("{before}a table of keys{}", &rest[end..]);

@@ -1,6 +1,7 @@
 use crate::format::FormatError;
-use lumley_fem::MeshError;
+use lumley_body::TreeError;
 use lumley_fem::generate::GenerateError;
+use lumley_fem::{MeshError, Point};
 use lumley_fom::motion::MotionError;
 use std::fmt;
 use std::path::PathBuf;
@@ -149,6 +150,41 @@ pub enum CaseError {
         /// Why.
         source: Box<MotionError>,
     },
+    /// The bodies make no tree.
+    #[error("{place}: {source}")]
+    Bodies {
+        /// The body, or what is wrong with it.
+        place: Place,
+        /// Why.
+        source: Box<TreeError>,
+    },
+    /// A body that starts where another one or a wall is.
+    #[error("{place}: at the start the body {body} meets {other} near ({:.6}, {:.6}) m: expected bodies apart from each other and within the walls\n  help: let it start elsewhere, or give it more room", near[0], near[1])]
+    Meets {
+        /// What says where it starts.
+        place: Place,
+        /// Its name.
+        body: String,
+        /// What is in its way.
+        other: String,
+        /// Where, in m.
+        near: Point,
+    },
+    /// A setting goes into a list that has no such entry.
+    #[error(
+        "--set {key}: {list} has no entry of the name {name}\n  help: {list} has {}",
+        one_of(known)
+    )]
+    Entry {
+        /// What was to be set.
+        key: String,
+        /// The list.
+        list: String,
+        /// The name that was not found.
+        name: String,
+        /// The names of its entries.
+        known: Vec<String>,
+    },
     /// A value that no computation can use.
     #[error("{place}: {key} = {value}: expected {expected}")]
     Value {
@@ -161,4 +197,8 @@ pub enum CaseError {
         /// What was expected, and what to do.
         expected: String,
     },
+}
+
+fn one_of(names: &[String]) -> String {
+    if names.is_empty() { "none with a name".into() } else { names.join(", ") }
 }

@@ -16,9 +16,9 @@ mod term;
 
 pub use error::{CaseError, Place};
 pub use flow::{
-    BoundaryKind, BoundarySection, FlowCase, FlowFile, FlowSection, GridSection, InitialSection,
-    InputFile, Instants, Kept, March, MeshSection, MotionChoice, MotionSection, MovingChoice,
-    MovingSection, OutputSection, PressureDifferenceSection, Probe, ProbeSection, ProfileShape,
+    BodiesChoice, BodyProbes, BodyProbesSection, BoundaryKind, BoundarySection, FlowCase, FlowFile,
+    FlowSection, GridSection, InitialSection, InputFile, Instants, Kept, March, MeshSection,
+    MotionSection, OutputSection, PressureDifferenceSection, Probe, ProbeSection, ProfileShape,
     RampShape, RecordChoice, RecordSection, Reference, ReferenceSection, Start, SteadySection,
     TimeChoice, TimeSection,
 };

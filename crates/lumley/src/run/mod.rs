@@ -23,6 +23,7 @@ mod task;
 pub use advance::{Stops, Work, advance};
 pub use basis::BasisFile;
 pub use decompose::grid_product;
+pub(crate) use flow::coupling;
 pub use flow::planar_flow;
 pub use interrupt::{Held, INTERRUPTED, Interrupt};
 pub use modes::FileModes;

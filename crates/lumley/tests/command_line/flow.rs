@@ -224,7 +224,7 @@ fn points_must_be_in_the_fluid() {
 #[test]
 fn a_tangled_mesh_keeps_what_was_computed() {
     let desk = Desk::new();
-    let far = ["motion.boundaries.cylinder.y=\"2*t\"", "record.start=1.0"];
+    let far = ["bodies.cylinder.joint.y=\"2*t\"", "record.start=1.0"];
     let answer = desk.quick("oscillating-cylinder", &far, "run");
     answer.refused(1, &["t = ", "kept: everything up to here, in run.partial", "--resume"]);
     assert!(!desk.path("run").exists());
@@ -240,7 +240,7 @@ fn a_tangled_mesh_keeps_what_was_computed() {
 #[test]
 fn a_flow_that_is_unstable_is_no_result() {
     let desk = Desk::new();
-    let fast = ["motion.boundaries.cylinder.y=\"0.2*sin(20*t)\"", "record.start=1.0"];
+    let fast = ["bodies.cylinder.joint.y=\"0.2*sin(20*t)\"", "record.start=1.0"];
     let answer = desk.quick("oscillating-cylinder", &fast, "run");
     answer.refused(1, &["t = 1 s", "smaller step", "kept: everything up to here"]);
     assert_eq!(desk.table("run.partial/loads.csv")[0].1.len(), 9);
@@ -251,9 +251,9 @@ fn a_flow_that_is_unstable_is_no_result() {
 #[test]
 fn the_command_that_goes_on_is_quoted() {
     let desk = Desk::new();
-    let settings = ["motion.boundaries.cylinder.y=\"2*t\"", "record.start=1.0"];
+    let settings = ["bodies.cylinder.joint.y=\"2*t\"", "record.start=1.0"];
     let answer = desk.quick("oscillating-cylinder", &settings, "run");
-    answer.refused(1, &["'motion.boundaries.cylinder.y=\"2*t\"' --set record.start=1.0"]);
+    answer.refused(1, &["'bodies.cylinder.joint.y=\"2*t\"' --set record.start=1.0"]);
     answer.refused(1, &["the mesh tangled at t = 3.5 s in cell "]);
 }
 

@@ -15,7 +15,12 @@ fn check_tells_what_a_flow_would_cost() {
         ),
         (
             "oscillating-cylinder",
-            ["cylinder: no-slip, moves", "top: slip", "Re = 185.000", "paraview"],
+            [
+                "cylinder: no-slip, of the body cylinder",
+                "body            cylinder: prescribed",
+                "cylinder.y (prescribed)",
+                "Re = 185.000",
+            ],
         ),
     ] {
         let text = desk.lumley(&["cases", name]).good().stdout;
@@ -56,4 +61,45 @@ fn wrong_flows_are_refused_with_their_line() {
     desk.lumley(&["check", "case.toml"])
         .refused(2, &[&place, "an operation", "character 3", "\"x\""]);
     desk.lumley(&["run", "case.toml"]).refused(2, &[&place]);
+}
+
+/// The bodies with their coordinates, and how near to its limit the explicit coupling is: the fluid that the cylinder
+/// displaces has 0.785 kg/m.
+#[test]
+fn check_tells_of_bodies_and_of_their_added_mass() {
+    let desk = Desk::new();
+    let text = desk.lumley(&["cases", "oscillating-cylinder"]).good().stdout;
+    let start = text.find("boundary = \"cylinder\"").expect("a body");
+    let end = text.find("[time]").expect("a time");
+    let body =
+        "boundary = \"cylinder\"\nmass = 2.5\njoint = { kind = \"prismatic\", along = [0, 1] }\n";
+    desk.write("case.toml", format!("{}{body}{}", &text[..start], &text[end..]).as_bytes());
+    let check = |settings: &[&str]| {
+        let set = settings.iter().flat_map(|setting| ["--set", setting]);
+        let words: Vec<&str> = ["check", "case.toml", "--quick"].into_iter().chain(set).collect();
+        desk.lumley(&words).good().stdout
+    };
+    let told = check(&["motion.gravity=[0, -9.81]"]);
+    for words in [
+        "body            cylinder: prismatic, 2.5 kg/m\n",
+        "coordinates     cylinder.distance\n",
+        "gravity         (0, -9.81) m/s²",
+        "coupling        monolithic\n",
+    ] {
+        assert!(told.contains(words), "no {words:?} in:\n{told}");
+    }
+    for (settings, share, warning) in [
+        (["bodies.cylinder.mass=2.5", "time.scheme=bdf2"], "0.314", "will become unstable"),
+        (["bodies.cylinder.mass=10", "time.scheme=bdf2"], "0.079", ""),
+        (["bodies.cylinder.mass=1", "time.scheme=implicit-euler"], "0.785", "may become unstable"),
+    ] {
+        let told = check(&[settings[0], settings[1], "motion.coupling=explicit"]);
+        let share = format!("explicit, the added mass is about {share} of the bodies' own");
+        assert!(told.contains(&share) && told.contains(warning), "{told}");
+        assert_eq!(told.contains("unstable"), !warning.is_empty(), "{told}");
+    }
+    // What only the mesh knows is known before the run, too.
+    let wide = "motion.rigid_zone=20";
+    let answer = desk.lumley(&["check", "case.toml", "--quick", "--set", wide]);
+    answer.refused(2, &["rigid zone of 20 m", "\"cylinder\"", "the largest that fits"]);
 }

@@ -3,7 +3,7 @@ use crate::{BOX, DUCT, parse, refused, with};
 /// Every wrong value, the line that is told, and what the error must say.
 #[test]
 fn wrong_values_are_refused_with_their_line() {
-    let table: [(&str, &str, &[&str]); 43] = [
+    let table: [(&str, &str, &[&str]); 39] = [
         ("density = 2.0", "density = -2.0", &["flow.density = -2.0", "positive", "kg/m³"]),
         ("viscosity = 0.01", "viscosity = 0", &["flow.viscosity = 0.0", "Pa s"]),
         ("viscosity = 0.01", "viscosty = 0.01", &["did you mean `viscosity`?"]),
@@ -66,14 +66,6 @@ fn wrong_values_are_refused_with_their_line() {
         ("size = 0.25", "size = 0.25\nfile = \"x.msh\"", &["mesh.x", "mesh.file"]),
         ("kind = \"uniform\"", "kind = \"jelly\"", &["jelly", "uniform"]),
         ("rigid_zone = 0.05", "rigid_zone = -0.05", &["rigid zone is -0.05 m"]),
-        (
-            "[motion.boundaries.disc]",
-            "[motion.boundaries.disk]",
-            &["motion.boundaries.disk", "did you mean disc?"],
-        ),
-        ("y = \"0.05*sin(2*pi*t)\"", "y = \"0.05*sin(x)\"", &["disc.y", "t or a function"]),
-        ("y = \"0.05*sin(2*pi*t)\"", "y = \"1/t\"", &["disc.y", "t = 0.0 s it gives inf"]),
-        ("y = \"0.05*sin(2*pi*t)\"", "table = \"m.csv\"", &["disc.angle", "not both"]),
         ("step = 0.01", "step = 0.011", &["time.step = 0.011", "time.end = 3.0 s, such as"]),
         ("step = 0.01", "step = 0.01\nscheme = \"crank-nicolson\"", &["time.scheme", "bdf2"]),
         (
@@ -166,8 +158,8 @@ fn a_steady_flow_has_no_time() {
     refused(&with(BOX, "[steady]", ""), &["[time]", "[steady]"]);
     refused(&format!("{BOX}\n[record]\ninterval = 0.1\n"), &["record = ", "no history"]);
     refused(&format!("{BOX}\n[output]\nparaview = 0.1\n"), &["output.paraview = ", "no history"]);
-    let moving = "[motion.boundaries.top]\npivot = [0, 0]\nx = 0.1\n";
-    refused(&format!("{BOX}\n{moving}"), &["motion = ", "at rest"]);
+    let moving = "[[bodies]]\nname = \"lid\"\ncentre = [0, 0]\njoint = { kind = \"free\" }\n";
+    refused(&format!("{BOX}\n{moving}"), &["bodies = 1", "on a mesh at rest"]);
     refused(
         &with(BOX, "velocity = [1, 0]", "velocity = [\"t\", 0]"),
         &["does not change with time"],
@@ -185,17 +177,6 @@ fn a_steady_flow_has_no_time() {
         &["steady.tolerance = 2.0", "1e-9"],
     );
     refused(&with(BOX, "[steady]", "[steady]\niterations = 0"), &["steady.iterations = 0"]);
-}
-
-#[test]
-fn only_whole_bodies_move_and_the_fluid_sticks_to_them() {
-    let given =
-        with(DUCT, "disc]\nkind = \"no-slip\"", "disc]\nkind = \"velocity\"\nvelocity = [0, 0]");
-    refused(&given, &["flow.boundaries.disc.kind", "\"no-slip\"", "moves"]);
-    let wall = with(DUCT, "[motion.boundaries.disc]", "[motion.boundaries.bottom]");
-    refused(&wall, &["motion.boundaries.bottom", "closed outline", "another boundary begins"]);
-    let nothing = with(DUCT, "y = \"0.05*sin(2*pi*t)\"\nangle = 0.0", "");
-    refused(&nothing, &["motion.boundaries.disc is missing", "formulas of t"]);
 }
 
 #[test]

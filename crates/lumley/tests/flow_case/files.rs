@@ -86,18 +86,14 @@ fn bad_meshes_are_refused() {
 
 #[test]
 fn tables_are_linear_in_time_and_constant_beyond() {
-    let desk =
-        desk(&[("in.csv", "t, u, v\n1, 0, 0\n2, 3, 0\n"), ("move.csv", "0,0,0,0\n1,0.1,0,1\n")]);
+    let desk = desk(&[("in.csv", "t, u, v\n1, 0, 0\n2, 3, 0\n")]);
     let text = with(DUCT, "velocity = [\"y*(1 - y)*sin(t)\", 0]\nramp = 0.5", "table = \"in.csv\"");
-    let text = with(&text, "y = \"0.05*sin(2*pi*t)\"\nangle = 0.0", "table = \"move.csv\"");
     let case = flow_at(&desk.path().join("case.toml"), &text);
     let left = case.conditions.iter().find(|(name, _)| name == "left");
     let Some((_, Condition::Velocity(field))) = left else { panic!("left has a velocity") };
     assert_eq!([0.0, 1.5, 9.0].map(|t| field.value([0.0, 0.5], t)[0]), [0.0, 1.5, 3.0]);
-    let place = (case.motion.as_ref().expect("it moves").boundaries[0].function)(0.5);
-    assert_eq!((place.translation, place.angle), ([0.05, 0.0], 0.5));
     let names: Vec<String> = case.kept().inputs.into_iter().map(|file| file.name).collect();
-    assert_eq!(names, ["velocity-1.csv", "motion-1.csv"]);
+    assert_eq!(names, ["velocity-1.csv"]);
 }
 
 #[test]

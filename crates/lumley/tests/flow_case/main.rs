@@ -1,6 +1,8 @@
 //! Case files of flows: what they mean, and what is refused, with its place and what to do.
 
+mod bad_bodies;
 mod bad_input;
+mod bodies;
 mod files;
 mod meaning;
 
@@ -59,8 +61,13 @@ size = 0.1
 stiffness = { kind = "uniform" }
 rigid_zone = 0.05
 
-[motion.boundaries.disc]
-pivot = [0.6, 0.5]
+[[bodies]]
+name = "disc"
+centre = [0.6, 0.5]
+boundary = "disc"
+
+[bodies.joint]
+kind = "prescribed"
 y = "0.05*sin(2*pi*t)"
 angle = 0.0
 

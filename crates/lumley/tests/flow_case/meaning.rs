@@ -1,7 +1,10 @@
 use crate::{BOX, DUCT, flow, with};
 use lumley::case::{Case, March, Start};
+use lumley_body::{RigidBody, Tree};
 use lumley_fem::Point;
+use lumley_fom::coupling::Coupling;
 use lumley_fom::flow::{Condition, ViscousForm};
+use lumley_fom::motion::Stiffness;
 
 fn velocity(conditions: &[(String, Condition)], name: &str, at: Point, time: f64) -> Point {
     match conditions.iter().find(|(known, _)| known == name) {
@@ -34,9 +37,12 @@ fn every_section_is_understood() {
     assert_eq!(record.grid.bounds(), ([0.0, 0.0], [2.0, 1.0]));
     assert_eq!(case.paraview.expect("files").count, 13);
     assert!(case.pod.is_some() && case.loads_every == 1);
-    let moving = &case.motion.as_ref().expect("a motion").boundaries[0];
-    let place = (moving.function)(0.25);
-    assert_eq!((moving.pivot, place.translation, place.angle), ([0.6, 0.5], [0.0, 0.05], 0.0));
+    let bodies = case.bodies.as_ref().expect("a body");
+    let mut place = [0.0; 3];
+    bodies.tree.prescribe(0.25, &mut place).expect("a finite motion");
+    assert_eq!((bodies.tree.bodies()[0].centre, place), ([0.6, 0.5], [0.0, 0.05, 0.0]));
+    assert_eq!((bodies.coupling, bodies.gravity), (Coupling::Monolithic, [0.0; 2]));
+    assert_eq!((bodies.mesh.stiffness, bodies.mesh.rigid_zone), (Stiffness::Uniform {}, 0.05));
 }
 
 #[test]
@@ -118,7 +124,8 @@ fn settings_reach_every_table() {
     let set = |setting: &str| Case::parse("case.toml".as_ref(), DUCT, false, &[setting.to_owned()]);
     for setting in [
         "flow.boundaries.top.kind=no-slip",
-        "motion.boundaries.disc.y=0.02*sin(t)",
+        "bodies.disc.joint.y=0.02*sin(t)",
+        "mesh.bodies.disc.size=0.08",
         "flow.boundaries.left.velocity=[1, 0]",
         "mesh.size=0.3",
     ] {
@@ -126,16 +133,24 @@ fn settings_reach_every_table() {
     }
     let error = set("flow.boundaries.top.kind=noslip").expect_err("no such kind").to_string();
     assert!(error.contains("did you mean `no-slip`?"), "{error}");
-    let error = set("motion.boundaries.disc.y=sin(x)").expect_err("no x").to_string();
-    assert!(error.contains("--set motion.boundaries.disc.y="), "{error}");
+    let error = set("bodies.disc.joint.y=sin(x)").expect_err("no x").to_string();
+    assert!(error.contains("--set bodies.disc.joint.y="), "{error}");
+    let error = set("bodies.disk.joint.y=0").expect_err("no such body").to_string();
+    assert!(error.contains("bodies has no entry of the name disk"), "{error}");
+    assert!(error.ends_with("help: bodies has disc"), "{error}");
+}
+
+/// The k-th block of TOML of the page of all keys.
+fn shown(k: usize) -> &'static str {
+    let page = include_str!("../../../../docs/flow-case.md");
+    let block = page.split("```toml").nth(1 + k).and_then(|rest| rest.split("```").next());
+    block.expect("a block of TOML")
 }
 
 /// The page that shows every key is itself a case, and leaves none out.
 #[test]
 fn the_page_of_all_keys_is_right() {
-    let page = include_str!("../../../../docs/flow-case.md");
-    let text = page.split("```toml").nth(1).and_then(|rest| rest.split("```").next());
-    let text = text.expect("a block of TOML");
+    let text = shown(0);
     for quick in [false, true] {
         let case = Case::parse("page.toml".as_ref(), text, quick, &[]);
         assert!(matches!(case, Ok(Case::Flow(_))), "{case:?}");
@@ -145,6 +160,18 @@ fn the_page_of_all_keys_is_right() {
     {
         assert!(text.contains(&format!("{key} = ")), "{key}");
     }
+}
+
+/// The page's pendulum is the paper's.
+#[test]
+fn the_page_of_all_keys_shows_a_tree() {
+    #[derive(serde::Deserialize)]
+    struct Bodies {
+        bodies: Vec<RigidBody>,
+    }
+    let Bodies { bodies } = toml::from_str(shown(1)).expect("bodies");
+    let tree = Tree::new(&bodies, [0.0; 2]).expect("a tree");
+    assert_eq!([tree.label(0), tree.label(1)], ["bar.angle", "disc.angle"]);
 }
 
 /// What is finite when a case is checked may not be in between: then the flow stops, and the formula is named.
@@ -163,5 +190,5 @@ fn a_formula_that_fails_on_the_way_is_named() {
     assert!(found.contains("flow.body_force = ") && found.contains("NaN"), "{found}");
     let motion = flow(&with(DUCT, "0.05*sin(2*pi*t)", "0.05/(t - 1.5)"));
     let found = motion.explain([0.6, 0.5], 1.5).expect("a division by zero");
-    assert!(found.contains("motion.boundaries.disc: y = \"0.05/(t - 1.5)\""), "{found}");
+    assert!(found.contains("bodies.disc.joint.y = \"0.05/(t - 1.5)\" gives (inf)"), "{found}");
 }

@@ -42,18 +42,24 @@ pub(super) fn conditions(
 }
 
 /// Every name under `key` must be that of a boundary.
-pub(super) fn check_names<'a>(
+fn check_names<'a>(
     ask: &Ask,
     key: &str,
     mut names: impl Iterator<Item = &'a String>,
     mesh: &PlanarMesh,
 ) -> Result<(), CaseError> {
+    let found = names.find_map(|name| Some((name, stray(name, mesh)?)));
+    let Some((name, expected)) = found else { return Ok(()) };
+    Err(ask.refuse(&format!("{key}.{name}"), "a table", &expected))
+}
+
+/// What is expected in the place of a name that no boundary has.
+pub(super) fn stray(name: &str, mesh: &PlanarMesh) -> Option<String> {
     let known: Vec<&str> =
         mesh.topology().boundaries().iter().map(|boundary| boundary.name.as_str()).collect();
-    let Some(stray) = names.find(|name| !known.contains(&name.as_str())) else { return Ok(()) };
-    let hint = nearest(stray, &known).map_or(String::new(), |w| format!("; did you mean {w}?"));
-    let expected = format!("a boundary of the mesh: {}{hint}", known.join(", "));
-    Err(ask.refuse(&format!("{key}.{stray}"), "a table", &expected))
+    let hint = nearest(name, &known).map_or(String::new(), |w| format!("; did you mean {w}?"));
+    let expected = || format!("a boundary of the mesh: {}{hint}", known.join(", "));
+    (!known.contains(&name)).then(expected)
 }
 
 /// A boundary and what the case says of it.

@@ -3,8 +3,8 @@
 use super::fields::{Given, check_finite, written};
 use super::time::{instants, march};
 use super::{
-    FlowCase, FlowFile, InitialSection, Probe, RecordChoice, Reference, Start, TimeChoice,
-    boundaries, mesh, motion, periodic,
+    FlowCase, FlowFile, InitialSection, Probe, RecordChoice, Reference, Start, TimeChoice, bodies,
+    boundaries, mesh, periodic,
 };
 use crate::case::ask::Ask;
 use crate::case::formula::Variables;
@@ -31,7 +31,7 @@ pub(in crate::case) fn check(
     still(ask, &file)?;
     let times: &[f64] = &march.unsteady().map_or(vec![0.0], |time| vec![0.0, time.end]);
     let mesh = mesh::build(ask, &file.mesh, folder)?;
-    let motion = motion::motion(ask, &file, &mesh, folder, times)?;
+    let bodies = bodies::bodies(ask, &file, &mesh, &march, times)?;
     let conditions = boundaries::conditions(ask, &file, &mesh, folder, times)?;
     periodic::check_balance(ask, &mesh, &conditions, times)?;
     let record = record(ask, &file, &mesh, march.unsteady())?;
@@ -51,7 +51,7 @@ pub(in crate::case) fn check(
         },
         loads_every: loads(ask, &file)?,
         pod: pod(ask, &file)?,
-        motion,
+        bodies,
         mesh,
         conditions,
         march,

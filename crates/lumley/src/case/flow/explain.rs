@@ -1,4 +1,6 @@
-use super::{BoundarySection, FlowCase, MovingSection};
+use super::{BoundarySection, FlowCase};
+use lumley_body::RigidBody;
+use lumley_body::joint::{Drive, Joint};
 use lumley_fem::Point;
 use lumley_fom::flow::Condition;
 
@@ -39,12 +41,12 @@ impl FlowCase {
             tell(format!("flow.body_force = {}", super::fields::written(terms)), &value)
         };
         let motion = || {
-            self.motion.as_ref()?.boundaries.iter().find_map(|moving| {
-                let section = self.file.motion.as_ref()?.boundaries.get(&moving.name)?;
-                let place = (moving.function)(time);
-                let [u, v] = place.translation;
-                let name = &moving.name;
-                tell(format!("motion.boundaries.{name}: {}", path(section)), &[u, v, place.angle])
+            let bodies = self.bodies.as_ref()?.tree.bodies().iter().zip(&self.file.bodies);
+            bodies.flat_map(drives).find_map(|(key, drive, written)| {
+                let (Drive::Function(function), Drive::Formula(formula)) = (drive, written) else {
+                    return None;
+                };
+                tell(format!("{key} = \"{formula}\""), &[function.at(time)])
             })
         };
         on_boundary.or_else(force).or_else(motion)
@@ -60,11 +62,15 @@ fn velocity(section: &BoundarySection) -> String {
     }
 }
 
-/// How a section gives its motion.
-fn path(section: &MovingSection) -> String {
-    let terms = [("x", &section.x), ("y", &section.y), ("angle", &section.angle)];
-    let terms =
-        terms.iter().filter_map(|(name, term)| Some(format!("{name} = {}", term.as_ref()?)));
-    let table = section.table.iter().map(|table| format!("table = {table}"));
-    terms.chain(table).collect::<Vec<_>>().join(", ")
+/// The keys of what prescribes a body's motion, with what it means and how it is written.
+fn drives<'a>(
+    (body, written): (&'a RigidBody, &'a RigidBody),
+) -> impl Iterator<Item = (String, &'a Drive, &'a Drive)> {
+    let drives = |joint: &'a Joint| match joint {
+        Joint::Prescribed(joint) => vec![&joint.x, &joint.y, &joint.angle],
+        _ => Vec::new(),
+    };
+    let keys = ["x", "y", "angle"].map(|key| format!("bodies.{}.joint.{key}", body.name));
+    let both = drives(&body.joint).into_iter().zip(drives(&written.joint));
+    keys.into_iter().zip(both).map(|(key, (drive, written))| (key, drive, written))
 }

@@ -56,19 +56,18 @@ impl VectorField for Parabola {
 }
 
 /// Values at increasing times: linear between them, constant before the first and after the last.
-pub(super) struct TimeTable<const N: usize> {
+pub(super) struct TimeTable {
     times: Vec<f64>,
-    values: Vec<[f64; N]>,
+    values: Vec<Point>,
 }
 
-impl<const N: usize> TimeTable<N> {
-    pub fn new(rows: &[(f64, [f64; N])]) -> Self {
+impl TimeTable {
+    pub fn new(rows: &[(f64, Point)]) -> Self {
         let (times, values) = rows.iter().copied().unzip();
         Self { times, values }
     }
 
-    /// The values at a time in s.
-    pub fn at(&self, time: f64) -> [f64; N] {
+    fn at(&self, time: f64) -> Point {
         let next = self.times.partition_point(|&t| t <= time);
         if next == 0 || next == self.times.len() {
             return self.values[next.saturating_sub(1)];
@@ -76,11 +75,11 @@ impl<const N: usize> TimeTable<N> {
         let (before, after) = (&self.values[next - 1], &self.values[next]);
         let (start, end) = (self.times[next - 1], self.times[next]);
         let share = (time - start) / (end - start);
-        std::array::from_fn(|d| before[d] * (1.0 - share) + after[d] * share)
+        [0, 1].map(|d| before[d] * (1.0 - share) + after[d] * share)
     }
 }
 
-impl VectorField for TimeTable<2> {
+impl VectorField for TimeTable {
     fn value(&self, _: Point, time: f64) -> Point {
         self.at(time)
     }

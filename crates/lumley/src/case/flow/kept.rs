@@ -63,10 +63,7 @@ fn named_files(file: &mut FlowFile) -> Vec<(String, &mut String)> {
     let mesh = file.mesh.file.iter_mut().map(|mesh| ("mesh.msh".to_owned(), mesh));
     let inflows = file.flow.boundaries.values_mut().filter_map(|b| b.table.as_mut());
     let inflows = (1..).zip(inflows).map(|(k, table)| (format!("velocity-{k}.csv"), table));
-    let moving = file.motion.iter_mut().flat_map(|motion| motion.boundaries.values_mut());
-    let motions = (1..).zip(moving.filter_map(|moving| moving.table.as_mut()));
-    let motions = motions.map(|(k, table)| (format!("motion-{k}.csv"), table));
-    mesh.chain(inflows).chain(motions).collect()
+    mesh.chain(inflows).collect()
 }
 
 fn absolute(path: &Path) -> String {

@@ -1,25 +1,25 @@
 //! Cases of a flow in the plane, on a mesh that may move.
 
+mod bodies;
 mod boundaries;
 mod check;
 mod explain;
 mod fields;
 mod kept;
 mod mesh;
-mod motion;
 mod periodic;
 mod raw;
 mod recording;
 mod time;
 
+pub use bodies::{BodiesChoice, BodyProbes};
 pub use kept::{InputFile, Kept};
-pub use motion::{MotionChoice, MovingChoice};
 pub use raw::{
     BoundaryKind, BoundarySection, FlowFile, FlowSection, InitialSection, MeshSection,
     PressureDifferenceSection, ProbeSection, ProfileShape, RampShape, ReferenceSection,
     SteadySection, TimeSection,
 };
-pub use recording::{GridSection, MotionSection, MovingSection, OutputSection, RecordSection};
+pub use recording::{BodyProbesSection, GridSection, MotionSection, OutputSection, RecordSection};
 pub use time::{Instants, TimeChoice};
 
 pub(super) use check::check;
@@ -57,8 +57,8 @@ pub struct FlowCase {
     pub conditions: Vec<(String, Condition)>,
     /// The flow at the start.
     pub start: Start,
-    /// What moves.
-    pub motion: Option<MotionChoice>,
+    /// The rigid bodies, and what goes with them.
+    pub bodies: Option<BodiesChoice>,
     /// Through time, or to the steady flow.
     pub march: March,
     /// What coefficients are made with; without it they are null.

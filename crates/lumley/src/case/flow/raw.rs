@@ -3,6 +3,7 @@
 use super::recording::{GridSection, MotionSection, OutputSection, RecordSection};
 use crate::case::sections::{PodSection, TransferSection};
 use crate::case::term::Term;
+use lumley_body::RigidBody;
 use lumley_fem::Point;
 use lumley_fem::generate::{Body, Rectangle};
 use lumley_fom::TimeScheme;
@@ -21,7 +22,10 @@ pub struct FlowFile {
     pub flow: FlowSection,
     /// The mesh.
     pub mesh: MeshSection,
-    /// Boundaries that move as rigid bodies.
+    /// Rigid bodies that the flow moves, or that move in it as they are told to.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bodies: Vec<RigidBody>,
+    /// How flow and mesh go with them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSection>,
     /// Time integration; either this or `[steady]`.

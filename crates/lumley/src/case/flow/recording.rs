@@ -1,43 +1,23 @@
 //! What a flow's case file says of its motion and its results, as it is written.
 
-use crate::case::term::Term;
 use lumley_fem::Point;
+use lumley_fom::coupling::Coupling;
 use lumley_fom::motion::Stiffness;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// `[motion]`: boundaries that move as rigid bodies, and the mesh with them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+/// `[motion]`: how flow and mesh go with the bodies.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 pub struct MotionSection {
     /// How stiff the mesh is where.
-    #[serde(default)]
     pub stiffness: Stiffness,
-    /// All nodes this near to a moving boundary move with it, in m.
-    #[serde(default)]
+    /// Cells with a node this near to a body move with it, in m.
     pub rigid_zone: f64,
-    /// How each moves, by its name.
-    pub boundaries: BTreeMap<String, MovingSection>,
-}
-
-/// `[motion.boundaries.NAME]`: a table, or numbers and formulas of t.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MovingSection {
-    /// The point about which it turns, in m, where it is in the mesh.
-    pub pivot: Point,
-    /// Displacement of the pivot in x, in m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub x: Option<Term>,
-    /// Displacement of the pivot in y, in m.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub y: Option<Term>,
-    /// Angle by which it has turned, counterclockwise, in rad.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub angle: Option<Term>,
-    /// A CSV file of t in s, x and y in m, angle in rad, beside the case file.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub table: Option<String>,
+    /// `monolithic` or `explicit` (the paper's).
+    pub coupling: Coupling,
+    /// In m/s²; bodies feel their weight less that of the fluid which they displace, the flow feels nothing.
+    pub gravity: Point,
 }
 
 /// `[grid]`.
@@ -66,7 +46,7 @@ pub struct RecordSection {
 }
 
 /// `[output]`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct OutputSection {
     /// Time between files for ParaView, in s; without it, only the last state is written.
@@ -74,10 +54,26 @@ pub struct OutputSection {
     pub paraview: Option<f64>,
     /// Steps between rows of loads and probes.
     pub loads: usize,
+    /// What is told of a body at given times.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub probes: Option<BodyProbesSection>,
+}
+
+/// `[output.probes]`: the load on a body and coordinates at given times.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyProbesSection {
+    /// When, in s.
+    pub times: Vec<f64>,
+    /// The body on whose boundary the load is taken.
+    pub body: String,
+    /// Coordinates such as `bar.angle`, each under a name of its own.
+    #[serde(default)]
+    pub coordinates: BTreeMap<String, String>,
 }
 
 impl Default for OutputSection {
     fn default() -> Self {
-        Self { paraview: None, loads: 1 }
+        Self { paraview: None, loads: 1, probes: None }
     }
 }

@@ -1,7 +1,8 @@
-use super::{bytes, duration};
+use super::{bodies, bytes, duration};
 use crate::Error;
 use crate::case::{FlowCase, March, Start, TimeChoice};
 use crate::command::say;
+use crate::run::planar_flow;
 use lumley_fem::space::NodalSpace;
 use lumley_fom::flow::Condition;
 
@@ -18,9 +19,14 @@ const CHARACTERS: f64 = 20.0;
 
 /// Says what the case would do.
 pub(super) fn tell(case: &FlowCase) -> Result<(), Error> {
+    // Whether the mesh can follow the bodies to their start is known only then.
+    let model = case.bodies.as_ref().map(|_| planar_flow(case, 1)).transpose()?;
     say(&format!("case            {}: {}", case.name, case.file.title))?;
     mesh(case)?;
     conditions(case)?;
+    if let (Some(choice), Some(model)) = (&case.bodies, &model) {
+        bodies::tell(case, choice, model)?;
+    }
     let velocity = NodalSpace::velocity(case.mesh.topology()).dofs().len();
     let unknowns = 2 * velocity + 3 * case.mesh.topology().cells();
     say(&format!("full-order      {unknowns} unknowns, {}", march(case)))?;
@@ -28,8 +34,9 @@ pub(super) fn tell(case: &FlowCase) -> Result<(), Error> {
         March::Steady(_) => 1.0,
         March::Unsteady(time) => steps(time).1 / case.loads_every as f64,
     };
-    let columns = 4.0 * case.conditions.len() as f64 + 3.0 * case.probes.len() as f64;
-    let tables = CHARACTERS * rows * columns;
+    let moving = case.bodies.as_ref().map_or(0, |choice| bodies::columns(&choice.tree));
+    let columns = 4 * case.conditions.len() + 3 * case.probes.len() + moving;
+    let tables = CHARACTERS * rows * columns as f64;
     let disk = record(case)? + paraview(case, velocity)? + tables;
     if let Some(pod) = &case.pod {
         say(&format!("pod             {}", pod.method))?;
@@ -66,9 +73,10 @@ fn conditions(case: &FlowCase) -> Result<(), Error> {
             Condition::Periodic { with } => format!("periodic with {with}"),
             other => other.name().to_owned(),
         };
-        let moving = case.motion.iter().flat_map(|motion| &motion.boundaries);
-        let moves = if moving.into_iter().any(|m| m.name == *name) { ", moves" } else { "" };
-        say(&format!("boundary        {name}: {what}{moves}"))?;
+        let mut bodies = case.bodies.iter().flat_map(|choice| choice.tree.bodies());
+        let of = bodies.find(|body| body.boundary.as_ref() == Some(name));
+        let of = of.map_or(String::new(), |body| format!(", of the body {}", body.name));
+        say(&format!("boundary        {name}: {what}{of}"))?;
     }
     let outlet = case.conditions.iter().any(|(_, c)| matches!(c, Condition::TractionFree));
     if !outlet {

@@ -58,7 +58,7 @@ end = 3.0
 step = 0.005
 "#;
 
-const MOTION: &str = "[motion.boundaries.cylinder]\npivot = [0.2, 0.2]\ny = \"0.02*sin(6*pi*t)\"\n";
+const MOTION: &str = "[[bodies]]\nname = \"cylinder\"\ncentre = [0.2, 0.2]\nboundary = \"cylinder\"\njoint = { kind = \"prescribed\", y = \"0.02*sin(6*pi*t)\" }\n";
 
 impl Sample {
     /// Makes the directory.

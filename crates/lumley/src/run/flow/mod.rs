@@ -13,6 +13,7 @@
 //! | `end.npz` | the last state, from which another run can start: `points` (in m), `velocity` at its dofs (in m/s), `pressure` (three coefficients for each cell), `time` |
 
 mod archive;
+pub(crate) mod coupling;
 mod instruments;
 mod outputs;
 mod paraview;

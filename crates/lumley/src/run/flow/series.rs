@@ -1,8 +1,8 @@
 //! What is recorded of a flow: its frames, and the series beside them.
 
 use super::Plan;
-use crate::case::{FlowCase, MovingChoice, RecordChoice};
-use crate::model::{FlowModel, Frame, Model};
+use crate::case::{FlowCase, RecordChoice};
+use crate::model::{FlowModel, Frame};
 use crate::record::{FrameDescription, Quantity, Support};
 use crate::run::{self, Gauge};
 
@@ -42,8 +42,9 @@ fn plan(
     let mut names = Names::default();
     let boundaries = case.mesh.topology().boundaries().iter().enumerate();
     gauges.extend(boundaries.map(|(k, boundary)| load(names.of("loads", &boundary.name), k)));
-    let moving = case.motion.iter().flat_map(|motion| &motion.boundaries);
-    gauges.extend(moving.map(|body| position(names.of("position", &body.name), body)));
+    let bodies = case.bodies.iter().flat_map(|choice| choice.tree.bodies()).enumerate();
+    let wet = bodies.filter_map(|(k, body)| Some((k, body.boundary.as_ref()?)));
+    gauges.extend(wet.map(|(k, boundary)| position(names.of("position", boundary), k)));
     let (name, case_file) = (case.name.clone(), case.kept().case);
     run::Plan { case: name, case_file, gathered: Some(gathered), frames: vec![frame], gauges }
 }
@@ -82,13 +83,13 @@ fn load(name: String, number: usize) -> Gauge<FlowModel> {
     })
 }
 
-/// Where a boundary is that moves.
-fn position(name: String, body: &MovingChoice) -> Gauge<FlowModel> {
+/// How far the body of this number is from where the mesh was given.
+fn position(name: String, number: usize) -> Gauge<FlowModel> {
     let entries = quantities([("x", "m"), ("y", "m"), ("angle", "rad")]);
-    let function = body.function.clone();
     Gauge::new(name, entries, move |model: &FlowModel| {
-        let at = function(model.time());
-        Ok(vec![at.translation[0], at.translation[1], at.angle])
+        let scheme = model.flow().bodies().expect("the flow of a case with bodies has them");
+        let at = scheme.kinematics().placement(number);
+        Ok(vec![at.translation[0], at.translation[1], at.rotation])
     })
 }
 

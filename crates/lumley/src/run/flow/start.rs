@@ -1,12 +1,11 @@
 use super::archive::End;
 use crate::Error;
-use crate::case::{FlowCase, MotionChoice, Start, TimeChoice};
+use crate::case::{FlowCase, Start, TimeChoice};
 use crate::error::OtherDomain;
 use crate::model::{FlowModel, Stepping};
 use lumley_fem::space::NodalSpace;
 use lumley_fem::{PlanarMesh, Point};
 use lumley_fom::flow::{Flow, FlowMotion, FlowSetup, FlowStart, VectorField};
-use lumley_fom::motion::{MeshMotion, Motion, MovingBoundary, PrescribedMotion};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,15 +14,14 @@ use std::sync::Arc;
 /// # Errors
 /// What the model does not accept.
 pub fn planar_flow(case: &FlowCase, threads: usize) -> Result<FlowModel, Error> {
+    let bodies = case.bodies.as_ref();
+    let motion = bodies.map_or(FlowMotion::Still, |choice| FlowMotion::Bodies(choice.setup()));
     let setup = FlowSetup {
         mesh: case.mesh.clone(),
         parameters: case.parameters.clone(),
         conditions: case.conditions.clone(),
         start: start(case)?,
-        motion: match &case.motion {
-            Some(choice) => FlowMotion::Given(motion(case, choice)?),
-            None => FlowMotion::Still,
-        },
+        motion,
         parallel: threads > 1,
     };
     let flow = Flow::new(setup).map_err(Error::Flow)?;
@@ -40,16 +38,6 @@ fn stepping(time: Option<TimeChoice>) -> Stepping {
         // A steady flow makes none.
         None => Stepping::Fixed { step: 1.0 },
     }
-}
-
-fn motion(case: &FlowCase, choice: &MotionChoice) -> Result<Box<dyn Motion>, Error> {
-    let moving = choice.boundaries.iter();
-    let moving: Vec<MovingBoundary> =
-        moving.map(|body| MovingBoundary { name: body.name.clone(), pivot: body.pivot }).collect();
-    let functions = choice.boundaries.iter().map(|body| body.function.clone()).collect();
-    let motion = MeshMotion::new(&case.mesh, &moving, &choice.parameters);
-    let prescribed = motion.and_then(|motion| PrescribedMotion::new(motion, functions));
-    Ok(Box::new(prescribed.map_err(|e| Error::Flow(e.into()))?))
 }
 
 fn start(case: &FlowCase) -> Result<FlowStart, Error> {

@@ -2,6 +2,8 @@
 
 use crate::Error;
 use crate::report::{FlowReference, FlowSettings};
+use lumley_body::RigidBody;
+use lumley_body::joint::{Drive, Joint};
 use lumley_fem::Point;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -17,7 +19,7 @@ pub(super) struct CaseView {
     #[serde(default)]
     steady: Option<toml::Table>,
     #[serde(default)]
-    motion: Motion,
+    bodies: Vec<RigidBody>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -37,19 +39,6 @@ struct Reference {
     velocity: f64,
     length: f64,
     density: Option<f64>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-struct Motion {
-    #[serde(default)]
-    boundaries: BTreeMap<String, Moving>,
-}
-
-#[derive(Debug, Deserialize)]
-struct Moving {
-    pivot: Point,
-    #[serde(flatten)]
-    others: toml::Table,
 }
 
 /// Keys of `[flow]` that stand in the table of the case.
@@ -81,9 +70,9 @@ impl CaseView {
             .map_err(|e| Error::Damaged { path: path.to_owned(), message: e.to_string() })
     }
 
-    /// The bodies that move and their pivots, in m.
+    /// The boundaries of bodies and their pivots, in m.
     pub(super) fn moving(&self) -> impl Iterator<Item = (&str, Point)> {
-        self.motion.boundaries.iter().map(|(name, moving)| (name.as_str(), moving.pivot))
+        self.bodies.iter().filter_map(|body| Some((body.boundary.as_deref()?, pivot(body))))
     }
 
     pub(super) fn settings(&self) -> FlowSettings {
@@ -94,8 +83,9 @@ impl CaseView {
         let stepping = stepping
             .into_iter()
             .filter_map(|(name, table)| Some((name.to_string(), pairs(table.as_ref()?))));
-        let moving = self.motion.boundaries.iter();
-        let moving = moving.map(|(name, m)| (format!("motion of {name}"), pairs(&m.others)));
+        let moving = self.bodies.iter().filter_map(|body| {
+            Some((format!("motion of {}", body.name), prescribed(&body.joint)?))
+        });
         FlowSettings {
             title: self.title.clone(),
             density: flow.density,
@@ -114,6 +104,28 @@ impl CaseView {
             steady: self.steady.is_some(),
         }
     }
+}
+
+/// The point that the joint of a body holds, in m.
+fn pivot(body: &RigidBody) -> Point {
+    match &body.joint {
+        Joint::Prescribed(joint) => joint.at.unwrap_or(body.centre),
+        Joint::Revolute(joint) => joint.at,
+        _ => body.centre,
+    }
+}
+
+/// What prescribes a motion, in words.
+fn prescribed(joint: &Joint) -> Option<String> {
+    let Joint::Prescribed(joint) = joint else { return None };
+    let drives = [("x", &joint.x, "m"), ("y", &joint.y, "m"), ("angle", &joint.angle, "rad")];
+    let said = drives.into_iter().filter_map(|(name, drive, unit)| match drive {
+        Drive::Constant(0.0) | Drive::Function(_) => None,
+        Drive::Constant(value) => Some(format!("{name} {value} {unit}")),
+        Drive::Formula(formula) => Some(format!("{name} {formula} {unit}")),
+        Drive::Table(_) => Some(format!("{name} by a table")),
+    });
+    Some(said.collect::<Vec<_>>().join(", "))
 }
 
 /// `no-slip`, or `velocity: profile parabolic, peak 1.5`.
@@ -180,9 +192,11 @@ length = 0.1
 [time]
 end = 8.0
 scheme = "bdf2"
-[motion.boundaries.cylinder]
-pivot = [0.2, 0.2]
-y = "0.02*sin(2*pi*t)"
+[[bodies]]
+name = "cylinder"
+centre = [0.2, 0.2]
+boundary = "cylinder"
+joint = { kind = "prescribed", y = "0.02*sin(2*pi*t)" }
 [elsewhere]
 anything = 1
 "#;
