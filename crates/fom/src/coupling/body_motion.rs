@@ -67,13 +67,6 @@ impl BodyMotion {
         self.wet.iter().map(|wet| wet.area)
     }
 
-    /// Whether the fluid must find how a body moves.
-    pub fn is_sought(&self, body: usize) -> bool {
-        let coordinates = self.scheme.tree().coordinates();
-        let mut path = self.scheme.kinematics().path(body).iter();
-        self.coupling == Coupling::Monolithic && path.any(|&k| !coordinates[k].prescribed)
-    }
-
     /// Centre of mass of the k-th wet body, in m, in the last trial: the pivot of its load.
     pub fn pivot(&self, k: usize) -> Point {
         self.scheme.kinematics().centre(self.wet[k].body)
@@ -124,13 +117,26 @@ impl BodyMotion {
     pub fn carry(&mut self, time: f64, mesh: &mut PlanarMesh) -> Result<(), FlowError> {
         self.place();
         let Err(error) = self.mesh.carry(&self.placed, time, mesh) else { return Ok(()) };
-        let tangled = matches!(error, MotionError::Tangled { .. } | MotionError::Lost { .. });
-        match collision::find(mesh, &self.wet).filter(|_| tangled) {
-            Some(pair) => {
-                let [body, with] = pair.map(|k| mesh.topology().boundaries()[k].name.clone());
-                Err(FlowError::Collision { time, body, with })
+        Err(self.explain(error, time, mesh))
+    }
+
+    /// What a mesh that did not survive says of the bodies in it.
+    fn explain(&self, source: MotionError, time: f64, mesh: &PlanarMesh) -> FlowError {
+        if !matches!(source, MotionError::Tangled { .. } | MotionError::Lost { .. }) {
+            return source.into();
+        }
+        let names = |pair: [usize; 2]| pair.map(|k| mesh.topology().boundaries()[k].name.clone());
+        if let Some(pair) = collision::find(mesh, &self.wet) {
+            let [body, with] = names(pair);
+            return FlowError::Collision { time, body, with };
+        }
+        let radius = self.wet.iter().map(|wet| wet.radius).fold(0.0, f64::max);
+        match collision::nearest_pair(mesh, &self.wet).filter(|(_, gap)| *gap < radius) {
+            Some((pair, gap)) => {
+                let [body, with] = names(pair);
+                FlowError::Squeezed { body, with, gap, source }
             }
-            None => Err(error.into()),
+            None => source.into(),
         }
     }
 

@@ -25,6 +25,20 @@ pub(super) fn find(mesh: &PlanarMesh, wet: &[Wet]) -> Option<[usize; 2]> {
     None
 }
 
+/// The body that is nearest to another boundary, that boundary, and the distance of their nodes, in m.
+pub(super) fn nearest_pair(mesh: &PlanarMesh, wet: &[Wet]) -> Option<([usize; 2], f64)> {
+    let boundaries = mesh.topology().boundaries();
+    let mut pairs = Vec::new();
+    for &Wet { boundary: body, .. } in wet {
+        for other in (0..boundaries.len()).filter(|&k| k != body) {
+            let nodes = boundaries[body].edges.iter().flat_map(|&edge| mesh.edge(edge));
+            let distances = nodes.map(|node| nearest(mesh, &boundaries[other], node));
+            pairs.push(([body, other], distances.fold(f64::INFINITY, f64::min)));
+        }
+    }
+    pairs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
 /// Whether an odd number of chords of these boundaries crosses the ray from a point to the left.
 fn encloses<'a>(
     mesh: &PlanarMesh,

@@ -92,7 +92,8 @@ impl Flow {
             self.forced_steps = if fits { 0 } else { self.forced_steps + 1 };
             if self.forced_steps > MOST_FORCED {
                 let (shortest, tolerance) = (control.shortest, control.tolerance);
-                return Err(FlowError::ShortestStep { time, shortest, error, tolerance });
+                let error = FlowError::ShortestStep { time, shortest, error, tolerance };
+                return Err(self.explain(error));
             }
             let unforeseen = self.steps < 2;
             self.accept(time, dt);

@@ -44,8 +44,8 @@ impl Constraint {
                     NodeUnknowns::Slides(slide, unknown) => {
                         this.push(row, unknown, Factor::Along(slide, c));
                     }
-                    NodeUnknowns::Rigid { sought, first } => {
-                        for (unknown, direction) in rigid.columns(sought) {
+                    NodeUnknowns::Rigid { body, first } => {
+                        for (unknown, direction) in rigid.columns(body) {
                             this.push(row, unknown, Factor::Along(first + direction, c));
                         }
                     }

@@ -181,6 +181,21 @@ pub enum FlowError {
         /// What went wrong.
         source: Box<FlowError>,
     },
+    /// The cells between a body and another boundary did not survive.
+    #[error(
+        "{source}. There the boundary `{body}` is {gap:.2e} m from `{with}`: bodies must keep clear of each other and of walls; hold \
+         them with stiffer springs, make the cells between them finer, or end the run before"
+    )]
+    Squeezed {
+        /// The boundary of the body.
+        body: String,
+        /// The other boundary.
+        with: String,
+        /// Between nearest nodes, in m.
+        gap: f64,
+        /// What happened to the mesh.
+        source: MotionError,
+    },
     /// A step that does not find where the bodies are.
     #[error(
         "at t = {time} s the bodies are still {apart:.1e} of their size from where the mesh has them after {iterations} \

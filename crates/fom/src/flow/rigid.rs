@@ -1,13 +1,14 @@
 use super::cells::Terms;
 use super::unknowns::NodeUnknowns;
-use crate::coupling::BodyMotion;
+use crate::coupling::{BodyMotion, Coupling};
 use crate::disjoint_sets::DisjointSets;
 use crate::linear::CellUnknowns;
 use lumley_body::{ImplicitScheme, Square};
 use lumley_fem::space::NodalSpace;
 use lumley_fem::{PlanarMesh, Point};
 
-/// Bodies whose velocities are unknowns of the flow's system, (16) and (23): at a dof on the boundary of such a body
+/// Bodies whose velocities are unknowns of the flow's system, but for prescribed ones, (16) and (23): at a dof on the boundary of
+/// a body
 ///
 /// ```text
 /// u = sum over the coordinates that move it of J_k v_k.
@@ -16,8 +17,9 @@ use lumley_fem::{PlanarMesh, Point};
 /// The same J, transposed, adds up what the momentum leaves at the dofs to the generalised load: the rows of (16) stand
 /// in the system with the load that the flow has at the new instant. They are linearised about the trial of the bodies.
 ///
-/// The unknowns are velocities over a scale that makes the diagonals of their rows like those of the fluid: the residual
-/// of the system is one number, and the momentum of a heavy body would drown that of the fluid in it.
+/// The unknowns are what is missing in the velocities of the trial, over a scale that makes the diagonals of their rows
+/// like those of the fluid: the residual of the system is one number, and the momentum of a heavy body would drown that
+/// of the fluid in it.
 #[derive(Debug, Clone, Default)]
 pub(super) struct RigidBodies {
     /// By coordinate: its unknown; none if it is prescribed.
@@ -25,8 +27,8 @@ pub(super) struct RigidBodies {
     /// Coordinates that move each other: each group is a cell of the system.
     groups: Vec<Group>,
     dofs: Vec<RigidDof>,
-    /// What the dofs of a body have in common, by body that is sought.
-    bodies: Vec<SoughtBody>,
+    /// What the dofs of a body have in common.
+    bodies: Vec<WetBody>,
     /// By coordinate.
     scales: Vec<f64>,
     tangent: Option<Square>,
@@ -47,14 +49,14 @@ struct Group {
 #[derive(Debug, Clone)]
 struct RigidDof {
     dof: usize,
-    /// Number among the sought bodies.
-    sought: usize,
+    /// Number among the wet bodies.
+    body: usize,
     /// Where it is in the placement as given, in m.
     point: Point,
 }
 
 #[derive(Debug, Clone)]
-struct SoughtBody {
+struct WetBody {
     body: usize,
     boundary: usize,
     /// Of the body, in m².
@@ -64,30 +66,27 @@ struct SoughtBody {
 }
 
 impl RigidBodies {
-    /// The bodies that the flow must find; none without bodies.
+    /// The bodies of monolithic coupling; none with the explicit one, whose walls are given.
     pub fn new(bodies: Option<&BodyMotion>, mesh: &PlanarMesh, space: &NodalSpace) -> Self {
-        let Some(bodies) = bodies else { return Self::default() };
+        let monolithic = |bodies: &&BodyMotion| bodies.coupling() == Coupling::Monolithic;
+        let Some(bodies) = bodies.filter(monolithic) else { return Self::default() };
         let scheme = bodies.scheme();
-        let sought: Vec<SoughtBody> = bodies
+        let wet: Vec<WetBody> = bodies
             .boundaries()
             .zip(bodies.areas())
-            .filter(|([body, _], _)| bodies.is_sought(*body))
             .map(|([body, boundary], area)| {
                 let path = scheme.kinematics().path(body).to_vec();
-                SoughtBody { body, boundary, area, path }
+                WetBody { body, boundary, area, path }
             })
             .collect();
-        if sought.is_empty() {
-            return Self::default();
-        }
         let mut dofs = Vec::new();
         let points = space.points(mesh);
-        for (number, SoughtBody { boundary, .. }) in sought.iter().enumerate() {
+        for (number, WetBody { boundary, .. }) in wet.iter().enumerate() {
             let boundary = &mesh.topology().boundaries()[*boundary];
             let own = space.dofs().on_boundary(mesh.topology(), boundary);
             dofs.extend(own.into_iter().map(|dof| RigidDof {
                 dof,
-                sought: number,
+                body: number,
                 point: points[dof],
             }));
         }
@@ -95,9 +94,9 @@ impl RigidBodies {
         Self {
             unknowns: unknowns(scheme),
             groups: groups(scheme),
-            directions: dofs.iter().map(|dof| sought[dof.sought].path.len()).sum(),
+            directions: dofs.iter().map(|dof| wet[dof.body].path.len()).sum(),
             dofs,
-            bodies: sought,
+            bodies: wet,
             scales: vec![1.0; n],
             tangent: Some(Square::zeros(n)),
             residual: vec![0.0; n],
@@ -119,14 +118,14 @@ impl RigidBodies {
     pub fn nodes(&self, first: usize) -> impl Iterator<Item = (usize, NodeUnknowns)> + '_ {
         self.dofs.iter().scan(first, |next, dof| {
             let first = *next;
-            *next += self.bodies[dof.sought].path.len();
-            Some((dof.dof, NodeUnknowns::Rigid { sought: dof.sought, first }))
+            *next += self.bodies[dof.body].path.len();
+            Some((dof.dof, NodeUnknowns::Rigid { body: dof.body, first }))
         })
     }
 
-    /// The unknowns that move a sought body, each with the number of its direction at a dof.
-    pub fn columns(&self, sought: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let path = self.bodies[sought].path.iter().enumerate();
+    /// The unknowns that move a wet body, each with the number of its direction at a dof.
+    pub fn columns(&self, body: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let path = self.bodies[body].path.iter().enumerate();
         path.filter_map(|(direction, &k)| Some((self.unknowns[k]?, direction)))
     }
 
@@ -160,8 +159,8 @@ impl RigidBodies {
     /// its spin: fluid that turns with the body has no stress, but a gradient.
     fn add_couples(&mut self, scheme: &ImplicitScheme, viscosity: f64) {
         let kinematics = scheme.kinematics();
-        let tangent = self.tangent.as_mut().expect("bodies that are sought");
-        for SoughtBody { body, area, .. } in &self.bodies {
+        let tangent = self.tangent.as_mut().expect("there are bodies");
+        for WetBody { body, area, .. } in &self.bodies {
             let couple = 2.0 * viscosity * area;
             for row in kinematics.jacobian(*body, [0.0; 2]) {
                 self.residual[row.coordinate] += couple * row.spin * kinematics.spin(*body);
@@ -173,7 +172,7 @@ impl RigidBodies {
     }
 
     fn set_directions(&mut self, scheme: &ImplicitScheme, terms: &Terms, directions: &mut [Point]) {
-        let tangent = self.tangent.as_ref().expect("bodies that are sought");
+        let tangent = self.tangent.as_ref().expect("there are bodies");
         let dof_mass = terms.density * terms.rate * self.share;
         for (k, scale) in self.scales.iter_mut().enumerate() {
             *scale = tangent[(k, k)].abs() / dof_mass;
@@ -181,7 +180,7 @@ impl RigidBodies {
         let columns = self
             .dofs
             .iter()
-            .flat_map(|dof| scheme.kinematics().jacobian(self.bodies[dof.sought].body, dof.point));
+            .flat_map(|dof| scheme.kinematics().jacobian(self.bodies[dof.body].body, dof.point));
         for (direction, column) in directions.iter_mut().zip(columns) {
             *direction = column.velocity;
             let [x, y] = column.velocity;
@@ -190,7 +189,7 @@ impl RigidBodies {
         for scale in &mut self.scales {
             *scale = if *scale > 0.0 { 1.0 / scale.sqrt() } else { 1.0 };
         }
-        let paths = self.dofs.iter().flat_map(|dof| &self.bodies[dof.sought].path);
+        let paths = self.dofs.iter().flat_map(|dof| &self.bodies[dof.body].path);
         for (direction, &k) in directions.iter_mut().zip(paths) {
             *direction = direction.map(|x| self.scales[k] * x);
         }
@@ -199,68 +198,46 @@ impl RigidBodies {
     /// Adds (16) to the system; its cells are those from `first` on.
     pub fn add(
         &self,
-        scheme: &ImplicitScheme,
         pattern: &CellUnknowns,
         first: usize,
         matrices: &mut [f64],
         right: &mut [f64],
     ) {
         let Some(tangent) = &self.tangent else { return };
-        let velocity = &scheme.trial().velocity;
         for (cell, group) in (first..).zip(&self.groups) {
             let matrix = &mut matrices[pattern.matrix(cell)];
             let free = || group.coordinates.iter().filter(|&&k| self.unknowns[k].is_some());
             let rows = pattern.of(cell).len();
             for (i, &row) in free().enumerate() {
-                let mut known = -self.residual[row];
                 for (j, &column) in free().enumerate() {
                     let entry = tangent[(row, column)] * self.scales[row];
-                    known += tangent[(row, column)] * velocity[column];
                     matrix[i + rows * j] = entry * self.scales[column];
                 }
-                right[pattern.of(cell)[i] as usize] += self.scales[row] * known;
+                right[pattern.of(cell)[i] as usize] -= self.scales[row] * self.residual[row];
             }
         }
     }
 
-    /// Starts the linear solver from the trial.
-    pub fn guess(&self, scheme: &ImplicitScheme, solution: &mut [f64]) {
-        let trial = self.unknowns.iter().zip(&scheme.trial().velocity).zip(&self.scales);
-        for ((unknown, velocity), scale) in trial {
-            if let Some(unknown) = unknown {
-                solution[*unknown] = velocity / scale;
-            }
-        }
-    }
-
-    /// The velocities that the system has given the coordinates; prescribed ones have their own.
-    pub fn velocities(&self, solution: &[f64], velocity: &mut [f64]) {
+    /// Adds what the system has found to the velocities of the trial; prescribed ones stay.
+    pub fn correct(&self, solution: &[f64], velocity: &mut [f64]) {
         let coordinates = velocity.iter_mut().zip(&self.unknowns).zip(&self.scales);
         for ((velocity, unknown), scale) in coordinates {
             if let Some(unknown) = unknown {
-                *velocity = scale * solution[*unknown];
+                *velocity += scale * solution[*unknown];
             }
         }
     }
 
-    /// Sets the velocities of the dofs in the trial.
-    pub fn hold(&self, scheme: &ImplicitScheme, base: &mut [Point]) {
-        for RigidDof { dof, sought, point } in &self.dofs {
-            base[*dof] = scheme.kinematics().velocity(self.bodies[*sought].body, *point);
-        }
-    }
-
-    /// Sets what prescribed coordinates give to the velocities of dofs that others move, too.
+    /// Sets the velocities that the dofs have in the trial.
     pub fn give(&self, scheme: &ImplicitScheme, given: &mut [Point]) {
-        for RigidDof { dof, sought, point } in &self.dofs {
-            given[*dof] = [0.0; 2];
-            for column in scheme.kinematics().jacobian(self.bodies[*sought].body, *point) {
-                if self.unknowns[column.coordinate].is_none() {
-                    let v = scheme.trial().velocity[column.coordinate];
-                    given[*dof] = [0, 1].map(|d| given[*dof][d] + v * column.velocity[d]);
-                }
-            }
+        for RigidDof { dof, body, point } in &self.dofs {
+            given[*dof] = scheme.kinematics().velocity(self.bodies[*body].body, *point);
         }
+    }
+
+    /// Sets those of bodies at rest.
+    pub fn hold(&self, given: &mut [Point]) {
+        self.dofs.iter().for_each(|rigid| given[rigid.dof] = [0.0; 2]);
     }
 }
 

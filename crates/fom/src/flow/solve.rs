@@ -18,10 +18,7 @@ impl Flow {
 
     /// Sets what boundaries give at `time`.
     pub(super) fn set_given(&mut self, time: f64) -> Result<(), FlowError> {
-        let Self { given, mesh, places, conditions, mesh_velocity, rigid, bodies, .. } = self;
-        if let Some(bodies) = bodies {
-            rigid.give(bodies.scheme(), &mut given.velocity);
-        }
+        let Self { given, mesh, places, conditions, mesh_velocity, .. } = self;
         given.update(mesh, places, conditions, mesh_velocity, time)
     }
 
@@ -44,12 +41,9 @@ impl Flow {
     /// Puts the given velocities into `work.base`, where they are known better than by extrapolation.
     pub(super) fn hold_base(&mut self) {
         for (dof, node) in self.unknowns.nodes.iter().enumerate() {
-            if matches!(node, NodeUnknowns::Held(_)) {
+            if matches!(node, NodeUnknowns::Held(_) | NodeUnknowns::Rigid { .. }) {
                 self.work.base[dof] = self.given.velocity[dof];
             }
-        }
-        if let Some(bodies) = &self.bodies {
-            self.rigid.hold(bodies.scheme(), &mut self.work.base);
         }
     }
 
@@ -58,12 +52,19 @@ impl Flow {
         self.slides.follow(&self.mesh, &mut self.work.directions[..self.slides.count()]);
     }
 
+    /// What bodies give to the velocities of their boundaries: those of the trial.
+    pub(super) fn give_bodies(&mut self) {
+        if let Some(bodies) = &self.bodies {
+            self.rigid.give(bodies.scheme(), &mut self.given.velocity);
+        }
+    }
+
     /// Linearises the equations of the bodies, and starts the linear solver from `work.base` and `work.new_pressure`.
     pub(super) fn guess(&mut self, terms: &Terms) {
         let Self { unknowns, slides, rigid, bodies, work, .. } = self;
         if let Some(bodies) = bodies {
             rigid.linearise(bodies.scheme(), terms, &mut work.directions[slides.count()..]);
-            rigid.guess(bodies.scheme(), &mut work.solution);
+            work.solution[..rigid.count()].fill(0.0);
         }
         for (&node, velocity) in unknowns.nodes.iter().zip(&work.base) {
             match node {
@@ -92,7 +93,7 @@ impl Flow {
         if self.unknowns.pinned() {
             terms.divergence = self.given.divergence(&self.mesh, time)?;
         }
-        let Self { system, space, pattern, rigid, bodies, given, work, .. } = self;
+        let Self { system, space, pattern, rigid, given, work, .. } = self;
         let wind = work.wind.iter_mut().zip(&work.base).zip(&self.mesh_velocity);
         wind.for_each(|((wind, u), w)| *wind = [0, 1].map(|d| u[d] - w[d]));
         let fields = NodalFields {
@@ -104,10 +105,8 @@ impl Flow {
         let directions = &work.directions;
         system.assemble(&terms, &fields, directions, self.parallel);
         system.right_side(space, pattern, directions, &given.velocity, &mut work.right);
-        if let Some(bodies) = bodies {
-            let cells = system.order().len();
-            rigid.add(bodies.scheme(), pattern, cells, &mut system.matrices, &mut work.right);
-        }
+        let cells = system.order().len();
+        rigid.add(pattern, cells, &mut system.matrices, &mut work.right);
         let solved = self.solver.solve(&system.matrices, &work.right, &mut work.solution);
         let solved = solved.map_err(|source| {
             if source.is_finite() {
@@ -131,8 +130,8 @@ impl Flow {
             work.new_velocity[dof] = match node {
                 NodeUnknowns::Free(k) => [x[k], x[k + 1]],
                 NodeUnknowns::Slides(slide, k) => work.directions[slide].map(|t| t * x[k]),
-                NodeUnknowns::Rigid { sought, first } => {
-                    rigid.columns(sought).fold(given.velocity[dof], |[u, v], (k, direction)| {
+                NodeUnknowns::Rigid { body, first } => {
+                    rigid.columns(body).fold(given.velocity[dof], |[u, v], (k, direction)| {
                         let [a, b] = work.directions[first + direction];
                         [u + a * x[k], v + b * x[k]]
                     })

@@ -50,6 +50,7 @@ impl Flow {
     ) -> Result<SteadyReport, FlowError> {
         let time = self.time;
         self.set_given(time)?;
+        self.rigid.hold(&mut self.given.velocity);
         self.set_force(time)?;
         self.work.base.copy_from_slice(&self.velocity[0]);
         self.work.new_pressure.copy_from_slice(&self.pressure[0]);
@@ -82,6 +83,7 @@ impl Flow {
     /// The creeping flow: no inertia.
     pub(super) fn creep(&mut self) -> Result<(), FlowError> {
         self.set_given(self.time)?;
+        self.rigid.hold(&mut self.given.velocity);
         self.set_force(self.time)?;
         // At rest nothing is carried.
         self.work.base.copy_from_slice(&self.mesh_velocity);

@@ -24,7 +24,7 @@ const PLACE_TOLERANCE: f64 = 1e-3;
 pub struct FlowStep {
     /// Iterations of GMRES, of all linear systems.
     pub iterations: usize,
-    /// Linear systems: one, or the iterations of Newton's method.
+    /// Linear systems: one, or the iterations of Newton's method, or those until bodies are where the mesh has them.
     pub systems: usize,
     /// Factorisations that were renewed.
     pub renewals: usize,
@@ -72,14 +72,15 @@ impl Flow {
             _ => 0.0,
         };
         if let Some(bodies) = &mut self.bodies {
-            bodies.foresee(dt, formula, ahead, &self.loads)?;
+            let foreseen = bodies.foresee(dt, formula, ahead, &self.loads);
+            foreseen.map_err(|error| self.explain(error))?;
         }
         self.extrapolate(ahead);
         self.solve_step(time, formula).map_err(|error| self.explain(error))
     }
 
     /// Tells an error that explicit coupling makes from one that a smaller step would mend.
-    fn explain(&self, source: FlowError) -> FlowError {
+    pub(super) fn explain(&self, source: FlowError) -> FlowError {
         match self.added_mass_share().filter(|share| *share > LARGEST_ADDED_MASS) {
             Some(share) => FlowError::AddedMass { share, source: Box::new(source) },
             None => source,
@@ -90,6 +91,7 @@ impl Flow {
     fn prepare(&mut self, terms: &Terms, time: f64, formula: RateFormula) -> Result<(), FlowError> {
         self.move_mesh(time, formula)?;
         self.set_given(time)?;
+        self.give_bodies();
         self.set_force(time)?;
         self.subtract_history(formula);
         self.hold_base();
@@ -180,7 +182,7 @@ impl Flow {
         let Self { bodies, rigid, work, .. } = self;
         let Some(bodies) = bodies.as_mut().filter(|_| rigid.count() > 0) else { return 0.0 };
         work.body_velocity.copy_from_slice(&bodies.scheme().trial().velocity);
-        rigid.velocities(&work.solution, &mut work.body_velocity);
+        rigid.correct(&work.solution, &mut work.body_velocity);
         bodies.propose(formula, &work.body_velocity)
     }
 

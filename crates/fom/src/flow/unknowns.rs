@@ -11,10 +11,10 @@ pub(super) enum NodeUnknowns {
     Free(usize),
     /// The component along the boundary; number of the slide, and the unknown.
     Slides(usize, usize),
-    /// The velocities of the coordinates that move a sought body, along as many directions from this on.
+    /// The velocities of the coordinates that move a body, along as many directions from this on.
     Rigid {
-        /// Number of the body among those that are sought.
-        sought: usize,
+        /// Number of the body among the wet ones.
+        body: usize,
         /// Its first direction.
         first: usize,
     },

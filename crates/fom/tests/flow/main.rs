@@ -9,3 +9,5 @@ mod pendulum;
 mod reference;
 mod restart;
 mod setups;
+mod trees;
+mod trouble;
