@@ -172,8 +172,8 @@ pub enum FlowError {
     },
     /// An error that explicit coupling leads to.
     #[error(
-        "{source}. But with explicit coupling no step is small enough here: the bodies undo about {share:.2} of every change of their \
-         velocity, because of the fluid that they take with them, and from about 0.7 on that grows: take the monolithic coupling"
+        "{source}. But with explicit coupling no step may be small enough here: the fluid that the bodies take with them weighs about \
+         {share:.3} of what they weigh, and where that nears 1 they undo every change of their velocity: take the monolithic coupling"
     )]
     AddedMass {
         /// Added mass over that of the bodies, estimated.

@@ -37,8 +37,8 @@ impl Flow {
     }
 
     /// With explicit coupling, about how much of their last change of velocity the bodies undo in a step because of the
-    /// fluid that they take with them: from about 0.7 on the coupling is unstable, whatever the step. Estimated with the
-    /// mass of the fluid that the bodies displace; walls and viscosity add to it.
+    /// fluid that they take with them: near 1 (from 0.9 on for the paper's pendulum) the coupling is unstable, whatever the
+    /// step. Estimated with the mass of the fluid that the bodies displace; walls and viscosity add to it.
     pub fn added_mass_share(&self) -> Option<f64> {
         let bodies = self.bodies.as_ref()?;
         (bodies.coupling() == Coupling::Explicit).then(|| bodies.added_mass_share())
