@@ -33,6 +33,13 @@ pub enum Coupling {
     Explicit,
 }
 
+impl Coupling {
+    /// About the share of the added mass in the inertia of the bodies
+    /// ([`Flow::added_mass_share`](crate::flow::Flow::added_mass_share)) from which explicit coupling is unstable, whatever
+    /// the step: measured with the paper's pendulum, and by either time scheme.
+    pub const EXPLICIT_LIMIT: f64 = 0.9;
+}
+
 /// The bodies in a flow.
 ///
 /// ```

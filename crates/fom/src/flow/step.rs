@@ -1,6 +1,7 @@
 use super::cells::Terms;
 use super::solve::Change;
 use super::{Flow, FlowError, Linearisation};
+use crate::coupling::Coupling;
 use crate::linear::LaggedStep;
 use crate::time_scheme::RateFormula;
 
@@ -8,9 +9,6 @@ use crate::time_scheme::RateFormula;
 const NEWTON_TOLERANCE: f64 = 1e-9;
 /// Most linear systems in a step.
 const MOST_SYSTEMS: usize = 20;
-/// Above this share of the added mass in that of the bodies, estimated with the mass of the fluid that they displace, explicit
-/// coupling is unstable or near it.
-const LARGEST_ADDED_MASS: f64 = 0.7;
 /// How far a body may be, over its radius, from where it was foreseen: less than the error of a step that follows its
 /// motion.
 const PLACE_TOLERANCE: f64 = 1e-3;
@@ -81,7 +79,7 @@ impl Flow {
 
     /// Tells an error that explicit coupling makes from one that a smaller step would mend.
     pub(super) fn explain(&self, source: FlowError) -> FlowError {
-        match self.added_mass_share().filter(|share| *share > LARGEST_ADDED_MASS) {
+        match self.added_mass_share().filter(|share| *share > 0.5 * Coupling::EXPLICIT_LIMIT) {
             Some(share) => FlowError::AddedMass { share, source: Box::new(source) },
             None => source,
         }

@@ -21,7 +21,7 @@ pub(super) fn tell(case: &FlowCase, choice: &BodiesChoice, model: &FlowModel) ->
     }
     match choice.coupling {
         Coupling::Monolithic => say("coupling        monolithic"),
-        Coupling::Explicit => explicit(case, model.flow().added_mass_share()),
+        Coupling::Explicit => explicit(model.flow().added_mass_share()),
     }
 }
 
@@ -55,11 +55,11 @@ fn coordinates(tree: &Tree) -> String {
 }
 
 /// The limit of the explicit coupling.
-fn explicit(case: &FlowCase, share: Option<f64>) -> Result<(), Error> {
+fn explicit(share: Option<f64>) -> Result<(), Error> {
     let told = share.unwrap_or_default();
     say(&format!(
         "coupling        explicit, the added mass is about {told:.3} of the bodies' own"
     ))?;
-    coupling::warning(case, share)
+    coupling::warning(share)
         .map_or(Ok(()), |warning| say(&format!("                {warning}")))
 }
