@@ -8,6 +8,7 @@ pub mod element;
 mod field;
 pub mod geometry;
 mod grid;
+mod grid_divergence;
 mod location;
 mod mesh;
 pub mod quadrature;
@@ -17,6 +18,7 @@ pub mod transfer;
 pub use characteristic::characteristic;
 pub use field::MovingField;
 pub use grid::UniformGrid;
+pub use grid_divergence::{DivergenceSquares, GridDivergence};
 pub use location::{Location, PointLocator};
 pub use mesh::{
     Boundary, CellPlace, CellQuality, Edge, EdgePlace, Extreme, LineMesh, MeshDescription,

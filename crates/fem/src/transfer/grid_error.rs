@@ -9,15 +9,43 @@ const PARTS: usize = 4;
 /// What is lost on the way to a grid.
 ///
 /// ```
-/// let error = lumley_fem::transfer::GridError { distance: 0.01, norm: 0.5 };
+/// let error = lumley_fem::transfer::GridError { norm: 0.5, distance: 0.01, ..Default::default() };
 /// assert_eq!(error.distance / error.norm, 0.02);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct GridError {
     /// `||v_h − v||` in L2 of the grid's domain, in m/s times m^(1/2) or m.
     pub distance: f64,
     /// `||v||`, in the same unit.
     pub norm: f64,
+    /// The largest `|v_h − v|` at a point of the quadrature, in m/s.
+    pub largest_distance: f64,
+    /// The largest `|v|` at one, in m/s.
+    pub largest: f64,
+}
+
+/// Adds up squares at points of a quadrature.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Squares {
+    sums: [f64; 2],
+    largest: [f64; 2],
+}
+
+impl Squares {
+    /// A point of this weight, with the squares of `v_h − v` and `v` there.
+    pub fn add(&mut self, weight: f64, squares: [f64; 2]) {
+        for ((sum, largest), square) in self.sums.iter_mut().zip(&mut self.largest).zip(squares) {
+            *sum += weight * square;
+            *largest = largest.max(square);
+        }
+    }
+
+    /// The error, where weights are counted in this unit.
+    pub fn error(&self, unit: f64) -> GridError {
+        let [distance, norm] = self.sums.map(|sum| (unit * sum).sqrt());
+        let [largest_distance, largest] = self.largest.map(f64::sqrt);
+        GridError { distance, norm, largest_distance, largest }
+    }
 }
 
 /// How far the (bi)linear field `v_h` with nodal values `values` is from the global velocity `v` of
@@ -60,19 +88,24 @@ pub fn grid_error(
     let (spacing, lower) = (grid.spacing(), grid.bounds().0);
     let cell_size: f64 = spacing[..grid.dimension()].iter().product();
     let mut exact = vec![0.0; components];
-    let (mut distance, mut norm) = (0.0, 0.0);
+    let mut sum = Squares::default();
     for (y, wy) in &column {
         for (x, wx) in &line {
             let point = [0, 1].map(|d| lower[d] + [x, y][d] * spacing[d]);
             global_velocity_at(field, point, &mut exact)?;
-            for (c, exact) in exact.iter().enumerate() {
-                let v = interpolate(&values[c * grid.len()..][..grid.len()], grid, [*x, *y]);
-                distance += wx * wy * (v - exact) * (v - exact);
-                norm += wx * wy * exact * exact;
-            }
+            sum.add(wx * wy, squares(grid, values, [*x, *y], &exact));
         }
     }
-    Ok(GridError { distance: (distance * cell_size).sqrt(), norm: (norm * cell_size).sqrt() })
+    Ok(sum.error(cell_size))
+}
+
+/// `|v_h − v|²` and `|v|²` at a point counted in cells from the lower corner.
+pub(super) fn squares(grid: &UniformGrid, values: &[f64], at: Point, exact: &[f64]) -> [f64; 2] {
+    let components = values.chunks_exact(grid.len()).zip(exact);
+    components.fold([0.0; 2], |[distance, norm], (values, exact)| {
+        let v = interpolate(values, grid, at);
+        [distance + (v - exact) * (v - exact), norm + exact * exact]
+    })
 }
 
 /// Quadrature points of all cells of a direction with this many nodes, in cells; weights add up to their
@@ -102,7 +135,7 @@ fn global_velocity_at(
 
 /// The (bi)linear field at a point counted in cells from the lower corner.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "inside of the grid")]
-pub(super) fn interpolate(values: &[f64], grid: &UniformGrid, at: Point) -> f64 {
+fn interpolate(values: &[f64], grid: &UniformGrid, at: Point) -> f64 {
     let nodes = grid.nodes();
     let cell = [0, 1].map(|d| (at[d] as usize).min(nodes[d].saturating_sub(2)));
     let along = |row: usize| {
@@ -155,6 +188,10 @@ mod tests {
                 (0..grid.len()).map(|k| grid.point(k)).map(|[x, y]| x * y * y).collect();
             let error = grid_error(&Cubic, &grid, &values).expect("fluid everywhere");
             assert!((error.norm - 15_f64.sqrt().recip()).abs() < 1e-5, "{}", error.norm);
+            assert!(error.largest < 1.0 && error.largest > 0.9, "{}", error.largest);
+            // h²/4 at most, in the middle between two nodes at the right.
+            let bound = 0.25 / (n * n) as f64;
+            assert!((0.8 * bound..bound).contains(&error.largest_distance), "{error:?}");
             error.distance
         };
         let order = (error(4) / error(8)).log2();

@@ -74,8 +74,8 @@ impl Ask<'_> {
         Ok(Transfers { chosen, inverse_distance })
     }
 
-    /// `[pod]`.
-    pub fn pod(&self, pod: &PodSection) -> Result<PodChoice, CaseError> {
+    /// `[pod]`, of so many snapshots.
+    pub fn pod(&self, pod: &PodSection, snapshots: usize) -> Result<PodChoice, CaseError> {
         let names: Vec<&str> = ALGORITHMS.iter().map(|algorithm| algorithm.name).collect();
         let method = pod.method.as_str();
         self.that(names.contains(&method), "pod.method", method, &names.join(", "))?;
@@ -95,7 +95,14 @@ impl Ask<'_> {
                 Truncation::Energy(share)
             }
         };
-        Ok(PodChoice { method: method.to_owned(), truncation, center: pod.center })
+        if let Some(every) = pod.every {
+            let expected = format!(
+                "from 2 to the {snapshots} snapshots of the record: with 5, a second POD of the fifth, the tenth, ..."
+            );
+            self.that((2..=snapshots).contains(&every), "pod.every", every, &expected)?;
+        }
+        let PodSection { center, every, .. } = *pod;
+        Ok(PodChoice { method: method.to_owned(), truncation, center, every })
     }
 }
 

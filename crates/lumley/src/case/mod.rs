@@ -60,7 +60,8 @@ pub enum Case {
 /// ```
 /// use lumley::case::PodChoice;
 /// use lumley_pod::Truncation;
-/// let pod = PodChoice { method: "auto".into(), truncation: Truncation::Energy(0.9999), center: false };
+/// let truncation = Truncation::Energy(0.9999);
+/// let pod = PodChoice { method: "auto".into(), truncation, center: false, every: Some(5) };
 /// assert_eq!(pod.method, "auto");
 /// ```
 #[derive(Debug, Clone)]
@@ -71,6 +72,8 @@ pub struct PodChoice {
     pub truncation: Truncation,
     /// Whether the mean is subtracted.
     pub center: bool,
+    /// Whether a second POD is made, of every so many snapshots alone.
+    pub every: Option<usize>,
 }
 
 impl Case {

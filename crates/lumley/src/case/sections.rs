@@ -45,10 +45,13 @@ pub struct PodSection {
     pub energy: Option<f64>,
     /// Whether the mean is subtracted.
     pub center: bool,
+    /// Also of every so many snapshots alone: with 5 of the fifth, the tenth, ...
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every: Option<usize>,
 }
 
 impl Default for PodSection {
     fn default() -> Self {
-        Self { method: "auto".into(), modes: None, energy: None, center: false }
+        Self { method: "auto".into(), modes: None, energy: None, center: false, every: None }
     }
 }

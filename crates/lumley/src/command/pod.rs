@@ -168,7 +168,7 @@ impl Arguments {
         };
         let unset = if self.update.is_some() { "incremental" } else { "auto" };
         let method = self.method.clone().unwrap_or_else(|| unset.into());
-        Ok(PodChoice { method, truncation, center: self.center })
+        Ok(PodChoice { method, truncation, center: self.center, every: None })
     }
 
     fn field_grid(&self) -> Result<Option<FieldGrid>, Error> {

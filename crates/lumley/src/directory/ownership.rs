@@ -50,26 +50,42 @@ pub(super) fn check_partial(partial: &Path, existing: Existing) -> Result<(), Di
 }
 
 /// What a run has at its top. Anything else in it is somebody's own, and is not removed with the run.
-const OURS: [&str; 12] = [
+const OURS: [&str; 22] = [
     MANIFEST,
     LOCK,
     "basis",
+    "bodies.csv",
     "case.toml",
     "checkpoint",
+    "end.npz",
     "figures",
     "initial_flow.csv",
+    "loads.csv",
+    "mesh.msh",
+    "mesh.npz",
+    "paraview",
+    "pictures",
     "pod.npz",
+    "probes.csv",
     "record",
     "report.html",
+    "residuals.csv",
     "rom",
+    "steps.csv",
     "summary.json",
 ];
+
+/// Copies of the tables that a flow's case names: `velocity-1.csv`, `velocity-2.csv`, ...
+fn is_copy(name: &str) -> bool {
+    let number = name.strip_prefix("velocity-").and_then(|rest| rest.strip_suffix(".csv"));
+    number.is_some_and(|number| number.parse::<usize>().is_ok())
+}
 
 fn check_only_ours(run: &Path) -> Result<(), DirectoryError> {
     let found = entries(run).map_err(DirectoryError::io("read", run))?;
     let is_ours = |path: &PathBuf| {
-        atomic::is_temporary(path)
-            || OURS.iter().any(|name| path.file_name() == Some(name.as_ref()))
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        atomic::is_temporary(path) || OURS.contains(&&*name) || is_copy(&name)
     };
     match found.into_iter().find(|path| !is_ours(path)) {
         Some(path) => Err(DirectoryError::Foreign { path }),

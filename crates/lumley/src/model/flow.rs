@@ -1,8 +1,8 @@
-use super::nodal_fields::NodalFields;
+use super::view::View;
 use super::{Frame, Model, StepError, StepReport};
-use lumley_body::BodyState;
-use lumley_fem::transfer::{Bodies, Coverage, PlanarFlow, PlanarTransfer, Transfer, TransferError};
-use lumley_fem::{Point, UniformGrid};
+use lumley_body::{BodyState, ImplicitScheme};
+use lumley_fem::UniformGrid;
+use lumley_fem::transfer::{Bodies, Coverage, PlanarTransfer, Transfer, TransferError};
 use lumley_fom::flow::{Flow, FlowError, FlowStep, StepControl};
 use lumley_fom::motion::RigidVelocity;
 use std::cell::RefCell;
@@ -27,6 +27,7 @@ pub struct FlowModel {
     stepping: Stepping,
     last: FlowStep,
     solids: Vec<Solid>,
+    states: Vec<BodyState>,
     views: RefCell<Vec<View>>,
 }
 
@@ -57,14 +58,8 @@ pub enum Stepping {
 struct Solid {
     name: String,
     dofs: Vec<usize>,
-}
-
-/// A fixed grid and what is on it.
-struct View {
-    transfer: PlanarTransfer,
-    placed: bool,
-    /// Pressure and vorticity at the dofs, for a picture.
-    scalars: Option<(NodalFields, Vec<Point>)>,
+    /// Its number among the bodies that move.
+    moving: Option<usize>,
 }
 
 impl FlowModel {
@@ -72,18 +67,24 @@ impl FlowModel {
     pub fn new(mut flow: Flow, stepping: Stepping) -> Self {
         let (mesh, space) = (flow.mesh(), flow.space());
         let is_body = |name: &str| Bodies::new(mesh, &[name]).is_ok();
+        let moving = |name: &String| {
+            let mut bodies = flow.bodies()?.tree().bodies().iter();
+            bodies.position(|body| body.boundary.as_ref() == Some(name))
+        };
         let boundaries = mesh.topology().boundaries().iter();
         let solids = boundaries.filter(|boundary| is_body(&boundary.name)).map(|boundary| Solid {
             name: boundary.name.clone(),
             dofs: space.dofs().on_boundary(mesh.topology(), boundary),
+            moving: moving(&boundary.name),
         });
         let solids = solids.collect();
+        let states = flow.bodies().map_or(Vec::new(), states);
         let views = RefCell::new(Vec::new());
         if let Stepping::Adaptive { first, .. } = stepping {
             flow.suggest_step(first);
         }
         let last = FlowStep::default();
-        Self { flow, stepping, last, solids, views }
+        Self { flow, stepping, last, solids, states, views }
     }
 
     /// Makes the frame on `grid` known: [`Frame::Fixed`], or for a picture [`Frame::Picture`].
@@ -99,15 +100,9 @@ impl FlowModel {
         method: Transfer,
         picture: bool,
     ) -> Result<Coverage, TransferError> {
-        let mesh = self.flow.mesh();
-        let names: Vec<&str> = self.bodies_in_it().collect();
-        let bodies = Bodies::new(mesh, &names).expect("each of them is a body");
-        let mut transfer = PlanarTransfer::new(method, grid, bodies)?;
-        let coverage = transfer.update(mesh);
-        let space = self.flow.space();
-        let scalars =
-            picture.then(|| (NodalFields::new(space), vec![[0.0; 2]; space.dofs().len()]));
-        self.views.get_mut().push(View { transfer, placed: true, scalars });
+        let mut transfer = PlanarTransfer::new(method, grid, self.solids())?;
+        let coverage = transfer.update(self.flow.mesh());
+        self.views.get_mut().push(View::new(transfer, picture.then_some(self.flow.space())));
         Ok(coverage)
     }
 
@@ -136,6 +131,17 @@ impl FlowModel {
         self.solids.iter().map(|solid| solid.name.as_str())
     }
 
+    /// The bodies in the flow, in that order.
+    pub(crate) fn solids(&self) -> Bodies {
+        let names: Vec<&str> = self.bodies_in_it().collect();
+        Bodies::new(self.flow.mesh(), &names).expect("each of them is a body")
+    }
+
+    /// The velocities that they have, and the fluid at their boundaries.
+    pub(crate) fn solid_velocities(&self) -> Vec<RigidVelocity> {
+        self.solids.iter().map(|solid| self.velocity_of(solid)).collect()
+    }
+
     /// Makes a step of the flow and adds it to the report.
     fn count(
         &mut self,
@@ -148,35 +154,31 @@ impl FlowModel {
         Ok(())
     }
 
-    /// The rigid velocity of a body, which the fluid has at its boundary.
+    /// That of a body which moves as the flow's bodies do is known; any other follows from its boundary's.
     fn velocity_of(&self, solid: &Solid) -> RigidVelocity {
+        if let (Some(body), Some(bodies)) = (solid.moving, self.flow.bodies()) {
+            let (kinematics, given) = (bodies.kinematics(), &bodies.tree().bodies()[body]);
+            return RigidVelocity {
+                centre: kinematics.centre(body),
+                velocity: kinematics.velocity(body, given.centre),
+                rate: kinematics.spin(body),
+            };
+        }
         let (points, velocities) = (self.flow.dof_points(), self.flow.mesh_velocity());
         RigidVelocity::fit(solid.dofs.iter().map(|&dof| (points[dof], velocities[dof])))
     }
 }
 
-impl View {
-    /// The velocity, and for a picture pressure and vorticity behind it.
-    fn sample(&mut self, model: &FlowModel, out: &mut [f64]) -> Result<(), TransferError> {
-        let flow = &model.flow;
-        if !self.placed || flow.moves() {
-            self.transfer.update(flow.mesh());
-            self.placed = true;
-        }
-        let solids: Vec<RigidVelocity> =
-            model.solids.iter().map(|solid| model.velocity_of(solid)).collect();
-        let solid = |body: usize, point: Point| solids[body].at(point);
-        let (mesh, space) = (flow.mesh(), flow.space());
-        let velocity = PlanarFlow { mesh, space, velocity: flow.velocity(), solid: &solid };
-        let (first, second) = out.split_at_mut(2 * self.transfer.grid().len());
-        self.transfer.transfer(velocity, first)?;
-        let Some((fields, pairs)) = &mut self.scalars else { return Ok(()) };
-        fields.update(flow);
-        let values = fields.pressure.iter().zip(&fields.vorticity);
-        pairs.iter_mut().zip(values).for_each(|(pair, (p, omega))| *pair = [*p, *omega]);
-        let none = |_: usize, _: Point| [0.0; 2];
-        self.transfer.transfer(PlanarFlow { mesh, space, velocity: pairs, solid: &none }, second)
+/// The coordinates of each body's joint.
+fn states(bodies: &ImplicitScheme) -> Vec<BodyState> {
+    let tree = bodies.tree();
+    let mut states = vec![BodyState::default(); tree.bodies().len()];
+    for (k, coordinate) in tree.coordinates().iter().enumerate() {
+        let state = &mut states[coordinate.body];
+        state.position.push(bodies.position()[k]);
+        state.velocity.push(bodies.velocity()[k]);
     }
+    states
 }
 
 impl Model for FlowModel {
@@ -200,6 +202,7 @@ impl Model for FlowModel {
                 }
             }
         }
+        self.states = self.flow.bodies().map_or(Vec::new(), states);
         Ok(report)
     }
 
@@ -217,15 +220,13 @@ impl Model for FlowModel {
             Frame::Reference => return Err(StepError::UnknownFrame { frame: frame.name() }),
         };
         let mut views = self.views.borrow_mut();
-        let is_it =
-            |view: &&mut View| view.transfer.grid() == grid && view.scalars.is_some() == picture;
-        let view = views.iter_mut().find(is_it);
+        let view = views.iter_mut().find(|view| view.is_of(grid, picture));
         let view = view.ok_or(StepError::UnknownFrame { frame: frame.name() })?;
-        Ok(view.sample(self, v)?)
+        Ok(view.sample(&self.flow, &self.solid_velocities(), v)?)
     }
 
     fn bodies(&self) -> &[BodyState] {
-        &[]
+        &self.states
     }
 
     fn forget(&mut self) {
@@ -238,9 +239,8 @@ impl Model for FlowModel {
 
     fn restore(&mut self, from: &mut dyn Read) -> io::Result<()> {
         self.flow.restore(from).map_err(io::Error::other)?;
-        for view in self.views.get_mut() {
-            view.placed = false;
-        }
+        self.states = self.flow.bodies().map_or(Vec::new(), states);
+        self.views.get_mut().iter_mut().for_each(View::forget);
         Ok(())
     }
 }

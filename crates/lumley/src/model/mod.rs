@@ -4,6 +4,7 @@ mod flow;
 mod nodal_fields;
 mod piston;
 mod reduced_piston;
+mod view;
 
 pub use flow::{FlowModel, Stepping};
 pub(crate) use nodal_fields::NodalFields;

@@ -3,12 +3,13 @@ use crate::Error;
 use crate::case::PodChoice;
 use crate::directory::Workplace;
 use crate::record::{FrameReader, Record};
-use crate::summary::Decomposition;
+use crate::summary::{Decomposition, PodEvery};
 use faer::{Mat, Par};
 use lumley_fem::UniformGrid;
 use lumley_pod::{
     ALGORITHMS, APPROXIMATIONS, Algorithm, Decomposition as Found, InnerProduct, Kronecker, Note,
-    Options, PodError, ReducedBasis, SnapshotSource, Tridiagonal, Truncation, projection_residuals,
+    Options, PodError, ReducedBasis, Selection, SnapshotSource, Tridiagonal, Truncation,
+    projection_residuals,
 };
 use std::num::NonZero;
 
@@ -80,6 +81,7 @@ pub(super) fn summary_of(found: &Found, chosen: usize) -> Decomposition {
         energy_percent: found.energy_percent(),
         cumulative_percent: found.cumulative_percent(),
         rms_error_percent: found.rms_projection_error().iter().map(|e| 100.0 * e).collect(),
+        ..Decomposition::default()
     }
 }
 
@@ -119,25 +121,64 @@ fn pod(
     (algorithm(&choice.method).run)(x, product, &options)
 }
 
-/// POD of the velocity on the fixed grid, and what projection on its first modes loses, in percent; the
-/// basis is written to `basis/fixed.npz`.
+/// What POD of the velocity on the fixed grid found.
+pub(super) struct OnGrid {
+    pub pod: Decomposed,
+    /// Res(N) (32) of the projection on the first modes, in percent.
+    pub res_percent: Vec<f64>,
+    /// The same of some of the snapshots, where the case asks for that.
+    pub every: Option<PodEvery>,
+}
+
+/// POD of the velocity on the fixed grid; the basis is written to `basis/fixed.npz`.
 pub(super) fn on_fixed_grid(
     grid: &UniformGrid,
     choice: &PodChoice,
     record: &Record,
     place: &Workplace,
     threads: usize,
-) -> Result<(Decomposed, Vec<f64>), Error> {
+) -> Result<OnGrid, Error> {
     let product = grid_product(grid, grid.dimension());
     let velocities = record.frame("fixed")?;
     let path = place.path().join("record");
-    let fixed = Decomposed::with_sweep(&velocities, &product, choice, threads);
-    let fixed = fixed.map_err(Error::pod(&path))?;
-    let residuals = projection_residuals(&fixed.basis, &velocities, &product);
-    let residuals = residuals.map_err(Error::pod(&path))?;
+    let (pod, res_percent) =
+        projected(&velocities, &product, choice, threads).map_err(Error::pod(&path))?;
+    let every = choice.every.map(|every| some(every, &velocities, &product, choice, threads));
+    let every = every.transpose().map_err(Error::pod(&path))?;
     let folder = place.fresh_folder("basis")?;
-    BasisFile::save(&folder.join("fixed.npz"), &fixed.basis)?;
-    Ok((fixed, residuals.iter().take(SWEEP).map(|res| 100.0 * res).collect()))
+    BasisFile::save(&folder.join("fixed.npz"), &pod.basis)?;
+    Ok(OnGrid { pod, res_percent, every })
+}
+
+/// POD with the sweep's modes, and what projection on the first of them loses, in percent.
+fn projected(
+    x: &dyn SnapshotSource,
+    product: &dyn InnerProduct,
+    choice: &PodChoice,
+    threads: usize,
+) -> Result<(Decomposed, Vec<f64>), PodError> {
+    let found = Decomposed::with_sweep(x, product, choice, threads)?;
+    let residuals = projection_residuals(&found.basis, x, product)?;
+    Ok((found, residuals.iter().take(SWEEP).map(|res| 100.0 * res).collect()))
+}
+
+/// POD of every so many snapshots, the last of each so many.
+fn some(
+    every: usize,
+    x: &dyn SnapshotSource,
+    product: &dyn InnerProduct,
+    choice: &PodChoice,
+    threads: usize,
+) -> Result<PodEvery, PodError> {
+    let taken = Selection::new(x, (every - 1..x.times().len()).step_by(every).collect());
+    let (found, res_percent) = projected(&taken, product, choice, threads)?;
+    Ok(PodEvery {
+        every,
+        snapshots: taken.times().len(),
+        eigenvalues: found.basis.eigenvalues.clone(),
+        cumulative_percent: found.basis.cumulative_percent(),
+        res_percent,
+    })
 }
 
 /// All snapshots of a frame, in columns.

@@ -1,6 +1,6 @@
 use super::Tolerance::{Absolute, AtLeast, Relative};
 use super::{Row, Tolerance, res};
-use crate::summary::{Probe, Summary};
+use crate::summary::{PistonProbe, Probe, Summary};
 
 /// What is compared, its unit, the references of cases A and B, the tolerance, and where it stands.
 type Line = (&'static str, &'static str, [f64; 2], Tolerance, fn(&Summary) -> Option<f64>);
@@ -53,8 +53,9 @@ pub(super) fn rows(case: usize, summary: &Summary) -> Vec<Row> {
     TABLE.iter().map(row).collect()
 }
 
-fn at(summary: &Summary, time: f64) -> Option<Probe> {
-    summary.probes.iter().find(|probe| (probe.time - time).abs() < 1e-9).copied()
+fn at(summary: &Summary, time: f64) -> Option<PistonProbe> {
+    let mut probes = summary.probes.iter().filter_map(Probe::piston);
+    probes.find(|probe| (probe.time - time).abs() < 1e-9)
 }
 
 fn energy(summary: &Summary, mode: usize) -> Option<f64> {

@@ -36,7 +36,7 @@ impl Desk {
 }
 
 impl Answer {
-    fn summary(&self) -> Summary {
+    pub fn summary(&self) -> Summary {
         serde_json::from_str(&self.stdout).expect("one JSON object and nothing else")
     }
 }

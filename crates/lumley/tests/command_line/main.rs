@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod flow;
+mod flow_bodies;
 mod flow_check;
 mod flow_interrupted;
 mod interrupted;

@@ -59,7 +59,7 @@ fn the_body_frame_is_far_more_accurate() {
     };
     assert!(res("mapped") < 0.1 * res("penalty"), "{} {}", res("mapped"), res("penalty"));
     assert!(summary.pod.cumulative_percent[5] > 99.99);
-    assert!((summary.probes[0].body.position - 0.951_24).abs() < 1e-3);
+    assert!((summary.probes[0].piston().expect("a piston").body.position - 0.951_24).abs() < 1e-3);
 }
 
 #[test]

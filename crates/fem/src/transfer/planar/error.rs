@@ -1,5 +1,5 @@
 use super::super::GridError;
-use super::super::grid_error::interpolate;
+use super::super::grid_error::{Squares, squares};
 use super::{Bodies, PlanarFlow};
 use crate::element::{Cell, Element, Q2, TriangleP2};
 use crate::geometry::{Mapped, Tabulated};
@@ -16,8 +16,7 @@ const PARTS: usize = 8;
 struct Sum<'a> {
     grid: &'a UniformGrid,
     values: &'a [f64],
-    distance: f64,
-    norm: f64,
+    squares: Squares,
 }
 
 impl Sum<'_> {
@@ -28,11 +27,7 @@ impl Sum<'_> {
             return;
         }
         let at = [0, 1].map(|d| (point[d] - lower[d]) / spacing[d]);
-        for (values, exact) in self.values.chunks_exact(self.grid.len()).zip(exact) {
-            let v = interpolate(values, self.grid, at);
-            self.distance += weight * (v - exact) * (v - exact);
-            self.norm += weight * exact * exact;
-        }
+        self.squares.add(weight, squares(self.grid, self.values, at, &exact));
     }
 }
 
@@ -43,12 +38,12 @@ pub(super) fn error(
     values: &[f64],
 ) -> GridError {
     assert_eq!(values.len(), 2 * grid.len(), "one value for each component and node");
-    let mut sum = Sum { grid, values, distance: 0.0, norm: 0.0 };
+    let mut sum = Sum { grid, values, squares: Squares::default() };
     add_fluid(&mut sum, flow);
     if !bodies.is_empty() {
         add_solid(&mut sum, bodies, flow);
     }
-    GridError { distance: sum.distance.sqrt(), norm: sum.norm.sqrt() }
+    sum.squares.error(1.0)
 }
 
 fn add_fluid(sum: &mut Sum<'_>, flow: PlanarFlow<'_>) {

@@ -6,7 +6,7 @@ use super::{
     FlowCase, FlowFile, InitialSection, Probe, RecordChoice, Reference, Start, TimeChoice, bodies,
     boundaries, mesh, periodic,
 };
-use crate::case::ask::Ask;
+use crate::case::ask::{Ask, Transfers};
 use crate::case::formula::Variables;
 use crate::case::{CaseError, Document, PodChoice};
 use crate::manifest::MANIFEST;
@@ -50,7 +50,7 @@ pub(in crate::case) fn check(
             _ => None,
         },
         loads_every: loads(ask, &file)?,
-        pod: pod(ask, &file)?,
+        pod: pod(ask, &file, record.as_ref())?,
         bodies,
         mesh,
         conditions,
@@ -202,8 +202,10 @@ fn record(
     ask.that(ok, "grid.nodes", format!("{nodes:?}"), &expected)?;
     let start = ("record.start", section.start);
     let when = instants(ask, time, start, ("record.interval", section.interval))?;
-    let transfer = ask.transfer(&file.transfer, mesh.topology().nodes())?.chosen;
-    Ok(Some(RecordChoice { grid: UniformGrid::rectangle(lower, upper, nodes), transfer, when }))
+    let transfers = ask.transfer(&file.transfer, mesh.topology().nodes())?;
+    let Transfers { chosen: transfer, inverse_distance } = transfers;
+    let grid = UniformGrid::rectangle(lower, upper, nodes);
+    Ok(Some(RecordChoice { grid, transfer, inverse_distance, when }))
 }
 
 fn loads(ask: &Ask, file: &FlowFile) -> Result<usize, CaseError> {
@@ -212,11 +214,13 @@ fn loads(ask: &Ask, file: &FlowFile) -> Result<usize, CaseError> {
     Ok(every)
 }
 
-fn pod(ask: &Ask, file: &FlowFile) -> Result<Option<PodChoice>, CaseError> {
+fn pod(
+    ask: &Ask,
+    file: &FlowFile,
+    record: Option<&RecordChoice>,
+) -> Result<Option<PodChoice>, CaseError> {
     let Some(section) = &file.pod else { return Ok(None) };
     let expected = "[record] with an interval in s: POD is made of recorded snapshots";
-    if file.record.is_none() {
-        return Err(ask.refuse("pod", "a table", expected));
-    }
-    ask.pod(section).map(Some)
+    let Some(record) = record else { return Err(ask.refuse("pod", "a table", expected)) };
+    ask.pod(section, record.when.count).map(Some)
 }

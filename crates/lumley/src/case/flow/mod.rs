@@ -171,7 +171,9 @@ pub struct Probe {
 /// use lumley_fem::{UniformGrid, transfer::Transfer};
 /// let grid = UniformGrid::rectangle([0.0, 0.0], [2.2, 0.41], [441, 83]);
 /// let when = Instants { start: 4.0, interval: 0.05, count: 81 };
-/// let record = RecordChoice { grid, transfer: Transfer::FiniteElement {}, when };
+/// let inverse_distance = Transfer::InverseDistance { power: 2.0, neighbours: 4 };
+/// let transfer = Transfer::FiniteElement {};
+/// let record = RecordChoice { grid, transfer, inverse_distance, when };
 /// assert_eq!(record.when.time(80), 8.0);
 /// ```
 #[derive(Debug, Clone)]
@@ -180,6 +182,8 @@ pub struct RecordChoice {
     pub grid: UniformGrid,
     /// How the mesh's field comes to it.
     pub transfer: Transfer,
+    /// The paper's way there, which is measured beside finite-element evaluation.
+    pub inverse_distance: Transfer,
     /// When.
     pub when: Instants,
 }

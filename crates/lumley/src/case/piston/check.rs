@@ -41,7 +41,7 @@ pub(in crate::case) fn check(
         grid: UniformGrid::line(0.0, file.piston.domain_length, file.grid.nodes),
         transfer,
         inverse_distance,
-        pod: ask.pod(&file.pod)?,
+        pod: ask.pod(&file.pod, schedule.snapshots())?,
         rom_schedule,
         integrator: file.rom.integrator,
         models: file.rom.models.clone(),

@@ -1,5 +1,5 @@
 use crate::Error;
-use crate::case::{BodiesChoice, FlowCase};
+use crate::case::BodiesChoice;
 use crate::command::say;
 use crate::model::FlowModel;
 use crate::run::coupling;
@@ -8,7 +8,7 @@ use lumley_body::{RigidBody, Tree};
 use lumley_fom::coupling::Coupling;
 
 /// Says what the bodies in the model are and how flow and bodies find their common motion.
-pub(super) fn tell(case: &FlowCase, choice: &BodiesChoice, model: &FlowModel) -> Result<(), Error> {
+pub(super) fn tell(choice: &BodiesChoice, model: &FlowModel) -> Result<(), Error> {
     for body in choice.tree.bodies() {
         say(&format!("body            {}", described(body)))?;
     }
@@ -60,6 +60,7 @@ fn explicit(share: Option<f64>) -> Result<(), Error> {
     say(&format!(
         "coupling        explicit, the added mass is about {told:.3} of the bodies' own"
     ))?;
-    coupling::warning(share)
+    share
+        .and_then(coupling::warning)
         .map_or(Ok(()), |warning| say(&format!("                {warning}")))
 }

@@ -25,7 +25,7 @@ pub(super) fn tell(case: &FlowCase) -> Result<(), Error> {
     mesh(case)?;
     conditions(case)?;
     if let (Some(choice), Some(model)) = (&case.bodies, &model) {
-        bodies::tell(case, choice, model)?;
+        bodies::tell(choice, model)?;
     }
     let velocity = NodalSpace::velocity(case.mesh.topology()).dofs().len();
     let unknowns = 2 * velocity + 3 * case.mesh.topology().cells();

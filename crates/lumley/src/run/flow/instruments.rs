@@ -1,10 +1,11 @@
-//! What is measured as a flow goes on: `loads.csv`, `steps.csv`, `probes.csv`.
+//! What is measured as a flow goes on: `loads.csv`, `steps.csv`, `bodies.csv`, `probes.csv`.
 
+use super::bodies::{self, BODIES};
 use super::points::Points;
 use crate::case::{FlowCase, Reference};
 use crate::format::FormatError;
 use crate::format::table::GrowingTable;
-use crate::model::{FlowModel, StepReport};
+use crate::model::{FlowModel, Model, StepReport};
 use std::path::Path;
 
 pub(super) const LOADS: &str = "loads.csv";
@@ -17,6 +18,7 @@ const STEP_HEADERS: [&str; 6] = ["time", "step", "cfl", "iterations", "renewals"
 pub(super) struct Instruments {
     loads: GrowingTable,
     steps: GrowingTable,
+    bodies: Option<GrowingTable>,
     probes: Option<GrowingTable>,
     points: Points,
     reference: Option<Reference>,
@@ -41,10 +43,12 @@ impl Instruments {
                 GrowingTable::resume(&folder.join(name), lengths.next().unwrap_or_default())
             }
         };
+        let bodies = case.bodies.as_ref().map(|choice| bodies::headers(&choice.tree));
         let probes = points.headers();
         Ok(Self {
             loads: table(LOADS, &load_headers(case))?,
             steps: table(STEPS, &STEP_HEADERS.map(str::to_owned))?,
+            bodies: bodies.map(|headers| table(BODIES, &headers)).transpose()?,
             probes: if probes.len() > 1 { Some(table(PROBES, &probes)?) } else { None },
             points,
             reference: case.reference,
@@ -63,8 +67,9 @@ impl Instruments {
         if !model.flow().steps().is_multiple_of(self.every) {
             return Ok(());
         }
-        let time = crate::model::Model::time(model);
+        let time = model.time();
         self.measure(model, time)?;
+        self.follow(model)?;
         let (iterations, renewals) = (report.iterations as f64, report.renewals as f64);
         let error = model.last_step().extrapolation_error;
         self.steps.row(&[time, dt, model.courant_number(), iterations, renewals, error])
@@ -89,15 +94,28 @@ impl Instruments {
         probes.row(row)
     }
 
+    /// Where the bodies are.
+    pub fn follow(&mut self, model: &FlowModel) -> Result<(), FormatError> {
+        let (Some(table), Some(bodies)) = (&mut self.bodies, model.flow().bodies()) else {
+            return Ok(());
+        };
+        self.row.clear();
+        self.row.push(model.time());
+        bodies::measure(bodies, &mut self.row);
+        table.row(&self.row)
+    }
+
     /// Lengths in bytes, in the order in which [`open`](Self::open) takes them.
     pub fn lengths(&self) -> Vec<u64> {
-        let tables = [&self.loads, &self.steps].into_iter().chain(&self.probes);
+        let tables = [&self.loads, &self.steps].into_iter();
+        let tables = tables.chain(&self.bodies).chain(&self.probes);
         tables.map(GrowingTable::length).collect()
     }
 
     /// Hands everything to the system, and to the disk if it is to `stay`.
     pub fn flush(&mut self, stay: bool) -> Result<(), FormatError> {
-        let mut tables = [&mut self.loads, &mut self.steps].into_iter().chain(&mut self.probes);
+        let tables = [&mut self.loads, &mut self.steps].into_iter();
+        let mut tables = tables.chain(&mut self.bodies).chain(&mut self.probes);
         tables.try_for_each(|table| if stay { table.sync() } else { table.flush() })
     }
 }

@@ -3,42 +3,59 @@
 //! | file | content |
 //! |---|---|
 //! | `mesh.npz` | the mesh when nothing has moved: `points` (n x 2, in m), `triangles` (6 nodes each) and `quadrilaterals` (9), `boundaries/NAME` (two ends and middle of each edge) |
-//! | `loads.csv` | `time`, and for each boundary `NAME.fx`, `NAME.fy` in N/m, `NAME.moment` in N, with a reference also `NAME.cd`, `NAME.cl` |
+//! | `loads.csv` | `time`, and for each boundary `NAME.fx`, `NAME.fy` in N/m, `NAME.moment` in N about the centre of mass of a body that moves, else about the origin, with a reference also `NAME.cd`, `NAME.cl` |
+//! | `bodies.csv` | where there are `[[bodies]]`: `time`, for each coordinate its label, such as `bar.angle`, in m or rad and `bar.angle'` in m/s or rad/s, then for each body `NAME.centre_x`, `NAME.centre_y`, the centre of mass in m, and `NAME.orientation`, its angle in rad: a row at the start, then as often as in `loads.csv` |
 //! | `probes.csv` | `time`, for each probe `NAME.u`, `NAME.v`, `NAME.p`, and `pressure_difference`; NaN where a body covers the probe |
 //! | `steps.csv` | `time`, `step` in s, `cfl`, `iterations`, `renewals`, `error`: a row as often as in `loads.csv` |
 //! | `residuals.csv` | of a steady flow: `iteration` and `change` |
 //! | `paraview/flow.pvd` | the series of VTU files: velocity, pressure, vorticity, `mesh_velocity` |
 //! | `record` | where the case has `[record]`: frame `fixed` (u, v) and the series of `pictures` |
-//! | `pictures` | a record for the report: frame `picture` (u, v, p, vorticity; zero in bodies but for the velocity) at up to 100 times, and the series `loads-NAME` (fx, fy, moment), `position-NAME` (x, y, angle) of boundaries that move, `cfl`, `iterations` |
+//! | `pictures` | a record for the report: frame `picture` (u, v, p, vorticity; zero in bodies but for the velocity) at up to 100 times, and the series `loads-NAME` (fx, fy, moment), `cfl`, `iterations`, and for each of the `[[bodies]]`, in their order, `position-NAME` (x, y, angle: displacement of its pivot in m and turn in rad from the mesh as given), for each of their coordinates `body-LABEL` (position, velocity), with `_` for the dot |
 //! | `end.npz` | the last state, from which another run can start: `points` (in m), `velocity` at its dofs (in m/s), `pressure` (three coefficients for each cell), `time` |
+//!
+//! Its `summary.json` has, beside what every run has ([`Summary`]):
+//!
+//! | key | content |
+//! |---|---|
+//! | `loads.NAME` | of each boundary: drag and lift over the last full periods |
+//! | `bodies.NAME` | of each of the `[[bodies]]`: amplitude and frequency of the centre of mass over the last full periods and in each of them, the last state, and its coordinates |
+//! | `probes` | what `[output.probes]` asks for: `time`, the coordinates by the names given to them, `fx` and `fy` in N/m, `mg`, the moment about the centre of mass, in N; between two rows of `bodies.csv` and `loads.csv`, on the straight line through them |
+//! | `transfer` | where the case has `[record]`: `finite-element` and `inverse-distance`, each with the errors `l2`, `max` and `nodes` of the last state on the grid, relative, and `ms` for a snapshot |
+//! | `pod.divergence`, `pod.snapshot_divergence` | the norm of the divergence over that of the gradient, of each mode and of the snapshots, where no body ever was |
+//! | `pod_every` | with `pod.every`: the POD of every so many snapshots alone |
 
 mod archive;
+mod bodies;
+mod columns;
 pub(crate) mod coupling;
+mod decompose;
+mod fluid;
 mod instruments;
 mod outputs;
 mod paraview;
 mod picture;
 mod points;
 mod series;
+mod snapshots;
 mod start;
 mod statistics;
 mod steady;
 mod timeline;
+mod transfer;
 
 pub use start::planar_flow;
 
-use super::decompose::{headline, on_fixed_grid, warnings};
 use super::stages::{CASE, Kept, begin, finish};
 use super::{Task, Work, checkpoint, keeper};
 use crate::Error;
 use crate::case::{FlowCase, March, RecordChoice};
 use crate::directory::{DirectoryError, Workplace};
 use crate::format::mesh;
-use crate::manifest::{Manifest, memory_peak};
+use crate::manifest::memory_peak;
 use crate::model::{FlowModel, StepError};
 use crate::progress::Progress;
-use crate::record::Record;
-use crate::summary::{FullOrder, Projection, Snapshots, Summary};
+use crate::summary::{FullOrder, Summary};
+use decompose::decompose;
 use lumley_fem::UniformGrid;
 use lumley_fem::transfer::Transfer;
 use outputs::FlowOutputs;
@@ -76,25 +93,39 @@ pub(super) fn run(
     let (steps, ms) = (work.steps, 1e-3 * work.step_us().unwrap_or_default());
     manifest.stage("full-order model", progress.end(&format!("{steps} steps of {ms:.2} ms")));
 
-    let mut summary = Summary {
+    let mut summary = summarise(&plan, &model, &work, (task, &place))?;
+    if let Some(record) = &case.record {
+        let files = (&mut summary, &mut manifest);
+        decompose((case, record), &model, (task, &place), files, progress)?;
+    }
+    finish(&place, manifest, &summary, progress)?;
+    Ok((place.finish()?, summary))
+}
+
+/// What the run was, and what was measured.
+fn summarise(
+    Plan { case, warnings, .. }: &Plan,
+    model: &FlowModel,
+    work: &Work,
+    (task, place): (&Task, &Workplace),
+) -> Result<Summary, Error> {
+    let folder = place.path();
+    Ok(Summary {
         case: case.name.clone(),
         directory: task.target.display().to_string(),
         fom: Some(FullOrder {
             renewals: Some(work.renewals),
             memory_bytes: memory_peak(),
-            residuals: statistics::residuals(place.path())?,
-            ..FullOrder::new(model.flow().unknowns(), &work)
+            residuals: statistics::residuals(folder)?,
+            ..FullOrder::new(model.flow().unknowns(), work)
         }),
-        loads: statistics::loads(case, &model, place.path())?,
-        pressure_difference: statistics::pressure_difference(place.path())?,
-        warnings: plan.warnings.clone(),
+        probes: bodies::probes(case.bodies.as_ref(), folder)?,
+        bodies: bodies::motions(model, folder)?,
+        loads: statistics::loads(case, model, folder)?,
+        pressure_difference: statistics::pressure_difference(folder)?,
+        warnings: warnings.clone(),
         ..Summary::default()
-    };
-    if let Some(record) = &case.record {
-        decompose(case, record, (task, &place), (&mut summary, &mut manifest), progress)?;
-    }
-    finish(&place, manifest, &summary, progress)?;
-    Ok((place.finish()?, summary))
+    })
 }
 
 /// What is written of a run, and when.
@@ -127,6 +158,7 @@ impl<'a> Plan<'a> {
         }
         let method = Transfer::FiniteElement {};
         model.add_grid(picture.clone(), method, true).map_err(StepError::from)?;
+        warnings.extend(model.flow().added_mass_share().and_then(coupling::warning));
         if model.flow().has_level_pressure() {
             let what = "no boundary is traction-free, so that the pressure is known up to a constant: its mean is zero";
             warnings.push(what.into());
@@ -163,28 +195,4 @@ fn kept(case: &FlowCase) -> Result<Vec<Kept>, Error> {
         kept.push(Kept::new(&input.name, content?));
     }
     Ok(kept)
-}
-
-/// Tells what was recorded, and decomposes it where the case asks for that.
-fn decompose(
-    case: &FlowCase,
-    RecordChoice { grid, .. }: &RecordChoice,
-    (task, place): (&Task, &Workplace),
-    (summary, manifest): (&mut Summary, &mut Manifest),
-    progress: &mut Progress,
-) -> Result<(), Error> {
-    let record = Record::open(place.path().join("record"))?;
-    let max_norm = Some(statistics::largest_norm(&record.frame("fixed")?, grid)?);
-    let (snapshots, unknowns) = (record.len(), 2 * grid.len());
-    summary.record = Snapshots { snapshots, unknowns, max_norm };
-    let Some(choice) = &case.pod else { return Ok(()) };
-    progress.begin("pod", 1);
-    let (found, res_percent) = on_fixed_grid(grid, choice, &record, place, task.threads)?;
-    manifest.stage("pod", progress.end(&headline(&found.basis, found.chosen)));
-    summary.pod = found.summary();
-    summary.projection = Projection { res_percent };
-    let warnings = warnings(&found.basis, choice);
-    progress.warn(&warnings);
-    summary.warnings.extend(warnings);
-    Ok(())
 }

@@ -81,6 +81,9 @@ impl Observer<FlowModel> for FlowOutputs<'_> {
         if due.paraview {
             self.paraview.write(model, stop.time)?;
         }
+        if stop.number == 0 {
+            self.instruments.follow(model)?;
+        }
         // Readers that look on see the tables grow.
         Ok(self.instruments.flush(false)?)
     }

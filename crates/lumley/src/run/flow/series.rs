@@ -5,11 +5,12 @@ use crate::case::{FlowCase, RecordChoice};
 use crate::model::{FlowModel, Frame};
 use crate::record::{FrameDescription, Quantity, Support};
 use crate::run::{self, Gauge};
+use lumley_body::{ImplicitScheme, Placement, Tree};
 
 /// Snapshots and pictures that wait in memory.
 const SNAPSHOTS: usize = 16;
 const PICTURES: usize = 4;
-/// Characters of a boundary's name in that of a series.
+/// Characters of the name of a boundary or a body in that of a series.
 const LONGEST_NAME: usize = 40;
 
 /// The record on the fixed grid.
@@ -42,9 +43,7 @@ fn plan(
     let mut names = Names::default();
     let boundaries = case.mesh.topology().boundaries().iter().enumerate();
     gauges.extend(boundaries.map(|(k, boundary)| load(names.of("loads", &boundary.name), k)));
-    let bodies = case.bodies.iter().flat_map(|choice| choice.tree.bodies()).enumerate();
-    let wet = bodies.filter_map(|(k, body)| Some((k, body.boundary.as_ref()?)));
-    gauges.extend(wet.map(|(k, boundary)| position(names.of("position", boundary), k)));
+    gauges.extend(case.bodies.iter().flat_map(|choice| of_bodies(&choice.tree)));
     let (name, case_file) = (case.name.clone(), case.kept().case);
     run::Plan { case: name, case_file, gathered: Some(gathered), frames: vec![frame], gauges }
 }
@@ -54,10 +53,10 @@ fn plan(
 struct Names(Vec<String>);
 
 impl Names {
-    fn of(&mut self, what: &str, boundary: &str) -> String {
+    fn of(&mut self, what: &str, whose: &str) -> String {
         let plain =
             |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '_' };
-        let plain: String = boundary.chars().map(plain).take(LONGEST_NAME).collect();
+        let plain: String = whose.chars().map(plain).take(LONGEST_NAME).collect();
         let mut name = format!("{what}-{plain}");
         for k in 2.. {
             if !self.0.contains(&name) {
@@ -83,13 +82,44 @@ fn load(name: String, number: usize) -> Gauge<FlowModel> {
     })
 }
 
-/// How far the body of this number is from where the mesh was given.
-fn position(name: String, number: usize) -> Gauge<FlowModel> {
+/// The series of where the bodies are, in their order.
+pub(super) fn positions(tree: &Tree) -> Vec<String> {
+    let mut names = Names::default();
+    tree.bodies().iter().map(|body| names.of("position", &body.name)).collect()
+}
+
+/// Where each body is, and its coordinates.
+fn of_bodies(tree: &Tree) -> Vec<Gauge<FlowModel>> {
+    let positions = positions(tree).into_iter().enumerate();
+    let mut names = Names::default();
+    let coordinates = tree.coordinates().iter().enumerate();
+    let coordinates = coordinates.map(|(k, found)| {
+        let unit = if found.name == "angle" { "rad" } else { "m" };
+        coordinate(names.of("body", &tree.label(k)), k, unit)
+    });
+    positions.map(|(body, name)| position(name, body)).chain(coordinates).collect()
+}
+
+fn bodies(model: &FlowModel) -> &ImplicitScheme {
+    model.flow().bodies().expect("the flow of a case with bodies has them")
+}
+
+/// The rigid motion (23) of the body of this number from the mesh as given.
+fn position(name: String, body: usize) -> Gauge<FlowModel> {
     let entries = quantities([("x", "m"), ("y", "m"), ("angle", "rad")]);
     Gauge::new(name, entries, move |model: &FlowModel| {
-        let scheme = model.flow().bodies().expect("the flow of a case with bodies has them");
-        let at = scheme.kinematics().placement(number);
-        Ok(vec![at.translation[0], at.translation[1], at.rotation])
+        let Placement { translation: [x, y], rotation, .. } =
+            bodies(model).kinematics().placement(body);
+        Ok(vec![x, y, rotation])
+    })
+}
+
+/// The generalised coordinate of this number and its velocity.
+fn coordinate(name: String, k: usize, unit: &str) -> Gauge<FlowModel> {
+    let rate = format!("{unit}/s");
+    let entries = quantities([("position", unit), ("velocity", &rate)]);
+    Gauge::new(name, entries, move |model: &FlowModel| {
+        Ok(vec![bodies(model).position()[k], bodies(model).velocity()[k]])
     })
 }
 

@@ -1,46 +1,18 @@
 //! The numbers of the summary that are taken from what was measured.
 
+use super::columns::Columns;
 use super::instruments::{LOADS, PROBES, column};
 use super::points::DIFFERENCE;
 use super::steady::{CHANGE, RESIDUALS};
 use crate::Error;
 use crate::case::FlowCase;
-use crate::format::FormatError;
 use crate::format::csv::read_columns;
 use crate::model::FlowModel;
-use crate::record::FrameReader;
-use crate::run::grid_product;
 use crate::summary::LoadStatistics;
-use faer::Mat;
-use lumley_fem::UniformGrid;
 use lumley_fom::flow::Load;
-use lumley_fom::signal::{Periods, Signal, SignalError};
-use lumley_pod::{InnerProduct, SnapshotSource};
+use lumley_fom::signal::{Periods, Signal};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-/// Columns of snapshots that are in memory at a time.
-const COLUMNS: usize = 8;
-
-/// A table of a run, by its headers.
-struct Columns {
-    path: PathBuf,
-    columns: Vec<(String, Vec<f64>)>,
-}
-
-impl Columns {
-    fn read(path: PathBuf) -> Result<Self, FormatError> {
-        Ok(Self { columns: read_columns(&path, |_| true)?, path })
-    }
-
-    fn of(&self, header: &str) -> Result<&[f64], Error> {
-        let found = self.columns.iter().find(|(name, _)| name == header);
-        found.map(|(_, values)| &values[..]).ok_or_else(|| {
-            let message = format!("it has no column {header}");
-            Error::Damaged { path: self.path.clone(), message }
-        })
-    }
-}
+use std::path::Path;
 
 /// The statistics of the loads on every boundary, from `loads.csv` in `folder`.
 pub(super) fn loads(
@@ -52,11 +24,11 @@ pub(super) fn loads(
     let boundaries = case.mesh.topology().boundaries().iter().zip(model.flow().loads());
     let of = |(boundary, load): (&lumley_fem::Boundary, &Load)| {
         let name = &boundary.name;
-        let [drag, lift] = ["fx", "fy"].map(|quantity| table.of(&column(name, quantity)));
-        let damaged =
-            |e: SignalError| Error::Damaged { path: table.path.clone(), message: e.to_string() };
-        let [drag, lift] = [drag?, lift?];
-        let mut found = statistics(case, table.of("time")?, drag, lift).map_err(damaged)?;
+        let mut found = LoadStatistics::default();
+        if !table.is_empty() {
+            let [drag, lift] = ["fx", "fy"].map(|quantity| table.signal(&column(name, quantity)));
+            found = statistics(case, &drag?, &lift?);
+        }
         found.cross_check = cross_check(model, name, load);
         found.is_body = model.bodies_in_it().any(|body| body == name);
         Ok((name.clone(), found))
@@ -65,17 +37,8 @@ pub(super) fn loads(
 }
 
 /// Over the last full periods of the lift, or, where it has none, over the later half of the run.
-fn statistics(
-    case: &FlowCase,
-    times: &[f64],
-    drag: &[f64],
-    lift: &[f64],
-) -> Result<LoadStatistics, SignalError> {
-    if times.is_empty() {
-        return Ok(LoadStatistics::default());
-    }
-    let (drag, lift) = (Signal::new(times, drag)?, Signal::new(times, lift)?);
-    let periods = Periods::of(&lift);
+fn statistics(case: &FlowCase, drag: &Signal<'_>, lift: &Signal<'_>) -> LoadStatistics {
+    let periods = Periods::of(lift);
     let window = periods.window().unwrap_or(lift.last_half());
     let (d, l) = (drag.statistics(window), lift.statistics(window));
     let coefficients = |drag: f64, lift: f64| {
@@ -86,7 +49,7 @@ fn statistics(
     let [drag_mean, lift_mean] = coefficients(d.mean, l.mean);
     let [_, lift_rms] = coefficients(d.rms, l.rms);
     let frequency = periods.frequency();
-    Ok(LoadStatistics {
+    LoadStatistics {
         drag_coefficient_max: drag_max,
         drag_coefficient_mean: drag_mean,
         lift_coefficient_max: lift_max,
@@ -99,7 +62,7 @@ fn statistics(
         window: [window.start, window.end],
         cross_check: None,
         is_body: false,
-    })
+    }
 }
 
 /// How far the surface integral (17) is from the consistent force, over this.
@@ -129,20 +92,4 @@ pub(super) fn residuals(folder: &Path) -> Result<Vec<f64>, Error> {
     }
     let changes = read_columns(&path, |header| header == CHANGE)?.pop();
     Ok(changes.map_or_else(Vec::new, |(_, values)| values))
-}
-
-/// The largest norm of a snapshot in L2 of the grid.
-pub(super) fn largest_norm(frame: &FrameReader, grid: &UniformGrid) -> Result<f64, Error> {
-    let product = grid_product(grid, grid.dimension());
-    let (rows, count) = (2 * grid.len(), frame.times().len());
-    let mut largest = 0.0_f64;
-    for first in (0..count).step_by(COLUMNS) {
-        let last = count.min(first + COLUMNS);
-        let mut x = Mat::zeros(rows, last - first);
-        frame.read_block(0..rows, first..last, x.as_mut())?;
-        let factored = product.factor(0..rows, x.as_mut());
-        factored.expect("the product of a grid reads no file");
-        largest = x.col_iter().map(|column| column.norm_l2()).fold(largest, f64::max);
-    }
-    Ok(largest)
 }

@@ -4,17 +4,16 @@ use crate::case::PistonCase;
 use crate::directory::Workplace;
 use crate::record::Record;
 use crate::run::BasisFile;
-use crate::run::decompose::{Decomposed, on_fixed_grid, whole};
+use crate::run::decompose::{Decomposed, OnGrid, on_fixed_grid, whole};
 use faer::Mat;
 use lumley_fem::LineMesh;
 use lumley_fem::element::{P1, P2};
 use lumley_pod::{MemorySnapshots, SnapshotSource, SparseSpd};
 
-/// The decompositions of a run, and what projection on the first modes loses.
+/// The decompositions of a run.
 pub(super) struct Decompositions {
-    pub fixed: Decomposed,
+    pub fixed: OnGrid,
     pub reference: Option<Decomposed>,
-    pub projection_percent: Vec<f64>,
 }
 
 /// POD of the record's frames; the bases are written to `basis/`.
@@ -24,13 +23,13 @@ pub(super) fn decompose(
     place: &Workplace,
     threads: usize,
 ) -> Result<Decompositions, Error> {
-    let (fixed, projection_percent) = on_fixed_grid(&case.grid, &case.pod, record, place, threads)?;
+    let fixed = on_fixed_grid(&case.grid, &case.pod, record, place, threads)?;
     let mapped = case.models.iter().any(is_mapped);
     let reference = if mapped { Some(reference(case, record, place, threads)?) } else { None };
     if let Some(reference) = &reference {
         BasisFile::save(&place.path().join("basis/reference.npz"), &reference.basis)?;
     }
-    Ok(Decompositions { fixed, reference, projection_percent })
+    Ok(Decompositions { fixed, reference })
 }
 
 /// POD of u - X' xi in L2(0, 1). It vanishes at both ends, and so do the modes, to the last bit: the end

@@ -15,7 +15,7 @@ pub(super) use report::report;
 pub use rerun::rerun;
 pub use simulate::full_order;
 
-use super::decompose::{Decomposed, headline, warnings, whole};
+use super::decompose::{Decomposed, OnGrid, headline, warnings, whole};
 use super::stages::{CASE, Kept, begin, finish};
 use super::{Task, Work};
 use crate::Error;
@@ -56,10 +56,10 @@ pub(super) fn run(
     let record = Record::open(place.path().join("record"))?;
     progress.begin("pod", 1);
     let found = decompose(case, &record, &place, task.threads)?;
-    manifest.stage("pod", progress.end(&headline(&found.fixed.basis, found.fixed.chosen)));
+    manifest.stage("pod", progress.end(&headline(&found.fixed.pod.basis, found.fixed.pod.chosen)));
 
     let full = whole(&record.frame("fixed")?)?;
-    let ground = Ground::new(case, place.path(), Some(full), found.fixed.chosen)?;
+    let ground = Ground::new(case, place.path(), Some(full), found.fixed.pod.chosen)?;
     let mut summary = summarise(&ground, &record, &found)?;
     reduced_models(&ground, &place, task, &mut summary, &mut manifest, progress)?;
     full_order_cost(&ground, &work, &mut summary, &mut manifest, progress)?;
@@ -83,15 +83,17 @@ fn kept(case: &PistonCase) -> Vec<Kept> {
 /// What the run is and what its decomposition found.
 fn summarise(ground: &Ground, record: &Record, found: &Decompositions) -> Result<Summary, Error> {
     let case = ground.case;
+    let OnGrid { pod, res_percent, every } = &found.fixed;
     Ok(Summary {
         case: case.name.clone(),
         record: snapshots(ground),
         transfer: Some(transfer::summary(record.series("transfer")?)),
-        pod: found.fixed.summary(),
+        pod: pod.summary(),
+        pod_every: every.clone(),
         pod_reference: found.reference.as_ref().map(Decomposed::summary),
-        projection: Projection { res_percent: found.projection_percent.clone() },
+        projection: Projection { res_percent: res_percent.clone() },
         probes: probes::probes(record)?,
-        warnings: warnings(&found.fixed.basis, &case.pod),
+        warnings: warnings(&pod.basis, &case.pod),
         ..Summary::default()
     })
 }

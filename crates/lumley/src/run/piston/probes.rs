@@ -1,6 +1,6 @@
 use crate::Error;
 use crate::record::Record;
-use crate::summary::{BodyProbe, Probe};
+use crate::summary::{BodyProbe, PistonProbe, Probe};
 
 /// Times of the reference table, in s.
 const TIMES: [f64; 2] = [1.0, 2.0];
@@ -13,11 +13,13 @@ pub(super) fn probes(record: &Record) -> Result<Vec<Probe>, Error> {
     let times = record.times();
     let asked =
         |k: usize| k + 1 == times.len() || TIMES.iter().any(|time| (times[k] - time).abs() < 1e-9);
-    let probe = |k: usize| Probe {
-        time: times[k],
-        body: BodyProbe { position: position.at(k)[0], velocity: velocity.at(k)[0] },
-        velocity_mid: middle.at(k)[0],
-        traction: traction.at(k)[0],
+    let probe = |k: usize| {
+        Probe::Piston(PistonProbe {
+            time: times[k],
+            body: BodyProbe { position: position.at(k)[0], velocity: velocity.at(k)[0] },
+            velocity_mid: middle.at(k)[0],
+            traction: traction.at(k)[0],
+        })
     };
     Ok((0..times.len()).filter(|k| asked(*k)).map(probe).collect())
 }

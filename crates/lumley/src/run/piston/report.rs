@@ -11,7 +11,7 @@ use crate::run::BasisFile;
 use crate::run::decompose::whole;
 use crate::run::report::columns;
 use crate::run::stages::read_summary;
-use crate::summary::{self, Reduced, Summary};
+use crate::summary::{self, Reduced, Summary, TransferErrors};
 use std::path::Path;
 
 /// Reads everything that the report shows from the run in `folder`.
@@ -141,15 +141,19 @@ fn variant(variant: &summary::Variant) -> Variant {
 }
 
 fn transfer(case: &PistonCase, summary: &Summary) -> Vec<TransferError> {
-    let Some(errors) = summary.transfer else { return Vec::new() };
+    let Some(TransferErrors::Piston { finite_element_percent, inverse_distance_percent }) =
+        summary.transfer
+    else {
+        return Vec::new();
+    };
     let section = &case.file.transfer;
     let (power, neighbours) = (section.power, section.neighbours);
     let inverse = format!("inverse distance, power {power}, {neighbours} neighbours");
     vec![
         TransferError {
             method: "finite-element evaluation".into(),
-            error_percent: errors.finite_element_percent,
+            error_percent: finite_element_percent,
         },
-        TransferError { method: inverse, error_percent: errors.inverse_distance_percent },
+        TransferError { method: inverse, error_percent: inverse_distance_percent },
     ]
 }

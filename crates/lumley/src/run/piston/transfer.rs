@@ -28,5 +28,8 @@ pub(super) fn errors(case: &PistonCase) -> Gauge<Piston> {
 pub(super) fn summary(series: &Series) -> TransferErrors {
     let largest = |k: usize| series.entry(k).fold(0.0, f64::max);
     let percent = |k: usize| if largest(2) > 0.0 { 100.0 * largest(k) / largest(2) } else { 0.0 };
-    TransferErrors { finite_element_percent: percent(0), inverse_distance_percent: percent(1) }
+    TransferErrors::Piston {
+        finite_element_percent: percent(0),
+        inverse_distance_percent: percent(1),
+    }
 }

@@ -56,7 +56,7 @@ impl PodInput {
     /// checksum of a long file and of a record leaves out most of it.
     pub(super) fn settings(&self) -> Vec<String> {
         let Self { layout, components, choice, skip_non_finite, .. } = self;
-        let PodChoice { method, truncation, center } = choice;
+        let PodChoice { method, truncation, center, .. } = choice;
         let files = self.files().map(|(argument, path)| {
             path.map_or_else(|| format!("no {argument}"), |p| format!("{argument} {}", dated(&p)))
         });
