@@ -43,6 +43,31 @@ pub const CASES: &[BuiltIn] = &[
         about: "cylinder that is moved up and down in a uniform stream, Re = 185, on a moving mesh",
         text: include_str!("../../../cases/oscillating-cylinder/case.toml"),
     },
+    BuiltIn {
+        name: "pendulum",
+        about: "disc on a hinged bar in a stream, Re = 100, and its POD: the paper's section 3 (about a minute)",
+        text: include_str!("../../../cases/pendulum/case.toml"),
+    },
+    BuiltIn {
+        name: "viv",
+        about: "cylinder on a spring across a stream, Re = 100: vortex-induced vibration",
+        text: include_str!("../../../cases/viv/case.toml"),
+    },
+    BuiltIn {
+        name: "massless-cylinder",
+        about: "cylinder without mass or spring that a stream moves across itself, Re = 100",
+        text: include_str!("../../../cases/massless-cylinder/case.toml"),
+    },
+    BuiltIn {
+        name: "tube-pair",
+        about: "two tubes on springs, one behind the other, Re = 100",
+        text: include_str!("../../../cases/tube-pair/case.toml"),
+    },
+    BuiltIn {
+        name: "falling-disc",
+        about: "disc that sinks in a closed channel under gravity",
+        text: include_str!("../../../cases/falling-disc/case.toml"),
+    },
 ];
 
 /// The case called `name`.

@@ -6,7 +6,7 @@ use clap::Args;
 
 #[derive(Args)]
 pub(super) struct Arguments {
-    /// Add what takes about two minutes: time accuracy of the schemes, long runs, changed parameters, the vortex street 2D-2
+    /// Add what takes about ten minutes: time accuracy of the schemes, long runs, changed parameters, the vortex street 2D-2, bodies that a flow moves
     #[arg(long)]
     full: bool,
 }

@@ -188,13 +188,39 @@ pub(super) fn whole(frame: &FrameReader) -> Result<Mat<f64>, Error> {
     Ok(x)
 }
 
-/// L2 of a field of several components on a grid.
+/// L2 of a field of several components on a grid: on a line the mass matrix of linear elements, of which the reduced
+/// models are made; in the plane the trapezoid rule, with which the paper's Table 1 comes out. There linear functions
+/// between the nodes would smooth what a moving body leaves: the fourth eigenvalue of the paper's case would be a tenth less.
+///
+/// ```
+/// use lumley_fem::UniformGrid;
+/// use lumley_pod::InnerProduct;
+/// let grid = UniformGrid::rectangle([0.0, 0.0], [1.0, 2.0], [3, 5]);
+/// let mut ones = faer::Mat::from_fn(15, 1, |_, _| 1.0);
+/// lumley::run::grid_product(&grid, 1).apply(ones.as_mut());
+/// let weights = grid.trapezoid_weights();
+/// assert!((0..15).all(|k| (ones[(k, 0)] - weights[k]).abs() < 1e-14));
+/// ```
 ///
 /// # Panics
-/// Never: a mass matrix is positive definite.
+/// Never: a mass matrix is positive definite, and so are the sums of its rows.
 pub fn grid_product(grid: &UniformGrid, components: usize) -> Kronecker {
     let direction = |(diagonal, beside): &(Vec<f64>, Vec<f64>)| {
-        Tridiagonal::new(diagonal, beside).expect("a mass matrix is positive definite")
+        let factor = match grid.dimension() {
+            1 => Tridiagonal::new(diagonal, beside),
+            _ => Tridiagonal::new(&row_sums(diagonal, beside), &vec![0.0; beside.len()]),
+        };
+        factor.expect("a mass matrix is positive definite")
     };
     Kronecker::new(grid.mass_factors().iter().map(direction).collect(), components)
+}
+
+/// Of a symmetric tridiagonal matrix: of a mass matrix, the weights of the trapezoid rule.
+fn row_sums(diagonal: &[f64], beside: &[f64]) -> Vec<f64> {
+    let mut sums = diagonal.to_vec();
+    for (k, entry) in beside.iter().enumerate() {
+        sums[k] += entry;
+        sums[k + 1] += entry;
+    }
+    sums
 }

@@ -1,5 +1,5 @@
 use super::Tolerance::{AtMost, Relative};
-use super::flow::Benchmark;
+use super::flow::{Benchmark, Expected};
 use super::{Row, Tolerance, res};
 use crate::Error;
 use crate::case::{Case, PistonCase};
@@ -55,14 +55,21 @@ impl<'a> Bench<'a> {
         Ok((case.piston()?, summary))
     }
 
-    /// A case of flow.
-    pub(super) fn flow(&mut self, benchmark: &Benchmark) -> Result<Summary, Error> {
-        let Benchmark { name, case, settings, .. } = benchmark;
+    /// The rows of a flow. That the computation fails is an error unless it is what must come out.
+    pub(super) fn flow(&mut self, benchmark: &Benchmark) -> Result<Vec<Row>, Error> {
+        let Benchmark { name, case, settings, coarse, expected, .. } = benchmark;
         let text = cases::find(case).map_or("", |case| case.text);
         let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
         let path = format!("{case}/case.toml");
-        let case = Case::parse(path.as_ref(), text, false, &settings)?;
-        Ok(run::run(&case, &self.task(&name.replace('/', "-")), self.progress)?.1)
+        let case = Case::parse(path.as_ref(), text, *coarse, &settings)?;
+        let folder = name.replace(['/', ' '], "-");
+        match run::run(&case, &self.task(&folder), self.progress) {
+            Ok((_, summary)) => Ok(benchmark.rows(Some(&summary))),
+            Err(Error::Stopped { .. }) if matches!(expected, Expected::BlowUp(_)) => {
+                Ok(benchmark.rows(None))
+            }
+            Err(error) => Err(error),
+        }
     }
 
     fn task(&self, name: &str) -> Task {
@@ -119,5 +126,5 @@ fn row(
     tolerance: Tolerance,
     computed: Option<f64>,
 ) -> Row {
-    Row { case, quantity, unit: "%", reference, tolerance, computed }
+    Row { case, quantity: quantity.to_owned(), unit: "%", reference, tolerance, computed }
 }

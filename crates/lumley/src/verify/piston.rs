@@ -44,7 +44,7 @@ const TABLE: &[Line] = &[
 pub(super) fn rows(case: usize, summary: &Summary) -> Vec<Row> {
     let row = |&(quantity, unit, references, tolerance, computed): &Line| Row {
         case: CASES[case].0,
-        quantity,
+        quantity: quantity.to_owned(),
         unit,
         reference: references[case],
         tolerance,

@@ -1,6 +1,7 @@
 //! The command line as people use it: in a directory of its own, by its exit code, its words and its files.
 
 mod bad_input;
+mod body_cases;
 mod flow;
 mod flow_bodies;
 mod flow_check;

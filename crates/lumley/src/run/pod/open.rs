@@ -99,7 +99,7 @@ impl PodInput {
             field_grid = Some(FieldGrid { nodes: [nx, ny, 1], components });
             if self.weights.is_none() {
                 product = Box::new(grid_product(grid, components));
-                inner_product = "L2, the mass matrix of the grid".into();
+                inner_product = "L2 on the grid".into();
             }
         }
         let time_weights = unequal(snapshots.times());
