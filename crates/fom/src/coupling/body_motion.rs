@@ -3,7 +3,7 @@ use super::{BodySetup, Coupling, added_mass, collision};
 use crate::flow::{FlowError, Load};
 use crate::motion::{MeshMotion, MotionError, MovingBoundary, RigidMotion};
 use crate::time_scheme::RateFormula;
-use lumley_body::{BodyState, DynamicsError, ImplicitScheme, Placement, RigidBody, Tree};
+use lumley_body::{BodyState, DynamicsError, ImplicitScheme, Placement, Tree};
 use lumley_fem::{PlanarMesh, Point};
 
 /// The bodies in a flow, and the mesh that follows them.
@@ -32,7 +32,9 @@ impl BodyMotion {
         let scheme = match coupling {
             Coupling::Explicit => ImplicitScheme::new(tree, 0.0)?,
             Coupling::Monolithic => {
-                check_inertia(&tree)?;
+                if let Some(k) = coupling.massless_coordinate(&tree) {
+                    return Err(FlowError::Massless { coordinate: tree.label(k) });
+                }
                 ImplicitScheme::in_fluid(tree, 0.0).map_err(DynamicsError::from)?
             }
         };
@@ -183,17 +185,4 @@ impl BodyMotion {
 
 fn rigid_motion(Placement { translation, rotation, .. }: Placement) -> RigidMotion {
     RigidMotion { translation, angle: rotation }
-}
-
-/// A body without inertia needs a fluid that gives it some: what a body in a fluid would move must not be massless.
-fn check_inertia(tree: &Tree) -> Result<(), FlowError> {
-    let heavier = |body: &RigidBody| match body.boundary {
-        None => body.clone(),
-        Some(_) => RigidBody { mass: Some(1.0), inertia: Some(1.0), shape: None, ..body.clone() },
-    };
-    let bodies: Vec<RigidBody> = tree.bodies().iter().map(heavier).collect();
-    match Tree::new(&bodies, [0.0; 2])?.massless_coordinate() {
-        Some(k) => Err(FlowError::Massless { coordinate: tree.label(k) }),
-        None => Ok(()),
-    }
 }

@@ -8,7 +8,7 @@ mod wet;
 pub(crate) use body_motion::BodyMotion;
 
 use crate::motion::MotionParameters;
-use lumley_body::RigidBody;
+use lumley_body::{RigidBody, Tree};
 use lumley_fem::Point;
 use serde::{Deserialize, Serialize};
 
@@ -38,6 +38,29 @@ impl Coupling {
     /// ([`Flow::added_mass_share`](crate::flow::Flow::added_mass_share)) from which explicit coupling is unstable, whatever
     /// the step: measured with the paper's pendulum, and by either time scheme.
     pub const EXPLICIT_LIMIT: f64 = 0.9;
+
+    /// The first coordinate along which the bodies have no inertia of their own and, with the monolithic coupling, the
+    /// fluid at their boundaries adds none: nothing says how it accelerates.
+    ///
+    /// # Panics
+    /// Never: masses alone are changed, to what a mass may be.
+    pub fn massless_coordinate(self, tree: &Tree) -> Option<usize> {
+        match self {
+            Self::Explicit => tree.massless_coordinate(),
+            Self::Monolithic => in_fluid(tree).massless_coordinate(),
+        }
+    }
+}
+
+/// The same bodies, those with a boundary as heavy as the heaviest of all: what the fluid adds to them has full rank.
+fn in_fluid(tree: &Tree) -> Tree {
+    let mut bodies = tree.bodies().to_vec();
+    let mass = bodies.iter().filter_map(|body| body.mass).fold(0.0, f64::max);
+    let mass = if mass > 0.0 { mass } else { 1.0 };
+    for body in bodies.iter_mut().filter(|body| body.boundary.is_some()) {
+        (body.mass, body.inertia, body.shape) = (Some(mass), Some(mass), None);
+    }
+    Tree::new(&bodies, [0.0; 2]).expect("masses alone were changed, to what a mass may be")
 }
 
 /// The bodies in a flow.
