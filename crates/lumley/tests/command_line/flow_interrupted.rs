@@ -35,15 +35,17 @@ fn arguments<'a>(path: &'a str, settings: &[&'a str], run: &'a str) -> Vec<&'a s
     arguments
 }
 
-/// Starts a run and waits for a checkpoint, and a little longer.
+/// Starts a run and waits for a checkpoint of its own, and a little longer.
 fn begun(desk: &Desk, arguments: &[&str], run: &str) -> Child {
+    let path = desk.path(&format!("{run}.partial/checkpoint"));
+    let written = || fs::metadata(&path).and_then(|file| file.modified()).ok();
+    let (before, started) = (written(), Instant::now());
     let child = desk.command(arguments).stderr(Stdio::piped()).spawn().expect("lumley starts");
-    let started = Instant::now();
-    while !desk.path(&format!("{run}.partial/checkpoint")).exists() {
+    while written().is_none() || written() == before {
         assert!(started.elapsed() < Duration::from_secs(120), "no checkpoint in two minutes");
         sleep(Duration::from_millis(2));
     }
-    sleep(Duration::from_millis(300));
+    sleep(Duration::from_millis(50));
     child
 }
 
