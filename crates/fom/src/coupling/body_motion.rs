@@ -136,7 +136,7 @@ impl BodyMotion {
         match collision::nearest_pair(mesh, &self.wet).filter(|(_, gap)| *gap < radius) {
             Some((pair, gap)) => {
                 let [body, with] = names(pair);
-                FlowError::Squeezed { body, with, gap, source }
+                FlowError::Squeezed { body, with, gap, source: Box::new(source) }
             }
             None => source.into(),
         }

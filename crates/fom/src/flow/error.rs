@@ -194,7 +194,7 @@ pub enum FlowError {
         /// Between nearest nodes, in m.
         gap: f64,
         /// What happened to the mesh.
-        source: MotionError,
+        source: Box<MotionError>,
     },
     /// A step that does not find where the bodies are.
     #[error(

@@ -19,8 +19,9 @@ mod provenance;
 pub(crate) mod wellformed;
 
 pub use flow::{
-    BoundaryLoads, Film, FlowModes, FlowReference, FlowReport, FlowSettings, FlowWork, History,
-    LoadNumbers, ProbeSeries, Scene, Track, View,
+    BodiesReport, BodyMotion, BodyNumbers, BoundaryLoads, CoordinateMotion, CoordinateNumbers,
+    Film, FinalState, FlowModes, FlowReference, FlowReport, FlowSettings, FlowWork, History,
+    LoadNumbers, ProbeSeries, Scene, ThinnedModes, TransferNumbers, View,
 };
 pub use html::Report;
 pub use markup::{escape, literal};

@@ -28,18 +28,38 @@ pub struct Curves {
     pub(super) ink: Ink,
     edges: Vec<[[f64; 2]; 3]>,
     look: Look,
-    hollow: bool,
 }
 
 #[derive(Debug, Clone, Copy)]
 enum Look {
     Fine,
     Line,
-    Solid(Pose),
+    Rigid(Pose, Face),
+}
+
+/// What of a rigid outline is drawn.
+#[derive(Debug, Clone, Copy)]
+enum Face {
+    Filled,
+    Hollow,
+    Dashed,
+    Link,
+}
+
+impl Face {
+    /// The class; scripts move all that are solid.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Filled => "solid",
+            Self::Hollow => "solid hollow",
+            Self::Dashed => "solid hollow dash",
+            Self::Link => "solid link",
+        }
+    }
 }
 
 /// Where a rigid outline is.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Pose {
     pivot: [f64; 2],
     translation: [f64; 2],
@@ -48,7 +68,7 @@ struct Pose {
 
 impl Curves {
     fn new(name: &str, edges: Vec<[[f64; 2]; 3]>, look: Look) -> Self {
-        Self { name: name.into(), ink: Ink::Text, edges, look, hollow: false }
+        Self { name: name.into(), ink: Ink::Text, edges, look }
     }
 
     /// Hairlines, for a mesh.
@@ -63,14 +83,20 @@ impl Curves {
 
     /// A filled outline; edges follow each other, and a new ring begins where one does not.
     pub fn solid(edges: Vec<[[f64; 2]; 3]>) -> Self {
-        let pose = Pose { pivot: [0.0; 2], translation: [0.0; 2], angle: 0.0 };
-        Self::new("", edges, Look::Solid(pose))
+        Self::new("", edges, Look::Rigid(Pose::default(), Face::Filled))
+    }
+
+    /// A rigid line through points, to be moved like an outline.
+    pub fn link(points: &[[f64; 2]]) -> Self {
+        let middle = |a: [f64; 2], b: [f64; 2]| [0, 1].map(|d| f64::midpoint(a[d], b[d]));
+        let edges = points.windows(2).map(|ab| [ab[0], ab[1], middle(ab[0], ab[1])]).collect();
+        Self::new("", edges, Look::Rigid(Pose::default(), Face::Link))
     }
 
     /// Turns a filled outline by `angle` in rad about `pivot` and then moves it.
     #[must_use]
     pub fn moved(mut self, pivot: [f64; 2], translation: [f64; 2], angle: f64) -> Self {
-        if let Look::Solid(pose) = &mut self.look {
+        if let Look::Rigid(pose, _) = &mut self.look {
             *pose = Pose { pivot, translation, angle };
         }
         self
@@ -78,8 +104,20 @@ impl Curves {
 
     /// Leaves a filled outline empty, where what is behind it is to be seen.
     #[must_use]
-    pub fn hollow(mut self) -> Self {
-        self.hollow = true;
+    pub fn hollow(self) -> Self {
+        self.with(Face::Hollow)
+    }
+
+    /// Leaves a filled outline empty and dashes its rim.
+    #[must_use]
+    pub fn dashed(self) -> Self {
+        self.with(Face::Dashed)
+    }
+
+    fn with(mut self, wanted: Face) -> Self {
+        if let Look::Rigid(_, face) = &mut self.look {
+            *face = wanted;
+        }
         self
     }
 
@@ -95,7 +133,7 @@ impl Curves {
         match self.look {
             Look::Fine => path(svg, "fine", &separate(&thinned(self.places(frame), frame))),
             Look::Line => path(svg, &self.class(), &separate(&thinned(self.places(frame), frame))),
-            Look::Solid(pose) => self.draw_solid(svg, frame, pose),
+            Look::Rigid(pose, face) => self.draw_rigid(svg, frame, pose, face),
         }
     }
 
@@ -113,7 +151,7 @@ impl Curves {
 
     /// The outline stands about its pivot, and a transformation puts it where it is: a script that moves it
     /// changes no more than that.
-    fn draw_solid(&self, svg: &mut Svg, frame: &Frame, pose: Pose) {
+    fn draw_rigid(&self, svg: &mut Svg, frame: &Frame, pose: Pose, face: Face) {
         let place = |[x, y]: [f64; 2]| Some((frame.x.position(x)?, frame.y.position(y)?));
         let at = [0, 1].map(|d| pose.pivot[d] + pose.translation[d]);
         let (Some(pivot), Some(at)) = (place(pose.pivot), place(at)) else { return };
@@ -122,9 +160,8 @@ impl Curves {
         let degrees =
             Some(-pose.angle.to_degrees() % 360.0).filter(|d| d.is_finite()).unwrap_or(0.0);
         let transform = format!("translate({} {}) rotate({})", Px(at.0), Px(at.1), Px(degrees));
-        let class = if self.hollow { "solid hollow" } else { "solid" };
         let d = joined(&edges);
-        svg.element("path", &[("class", &class), ("transform", &transform), ("d", &d)]);
+        svg.element("path", &[("class", &face.class()), ("transform", &transform), ("d", &d)]);
     }
 }
 

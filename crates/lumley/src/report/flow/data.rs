@@ -2,6 +2,7 @@
 
 use crate::report::{DrawnModes, Film};
 use lumley_fem::{PlanarMesh, Point, UniformGrid};
+use serde::Deserialize;
 
 /// The fluid, what holds on its boundaries, and how it was computed; texts as a user wrote them.
 ///
@@ -58,36 +59,6 @@ pub struct FlowReference {
     pub density: f64,
 }
 
-/// Where a boundary that moves as a rigid body was.
-///
-/// ```
-/// let still = lumley::report::Track { name: "cylinder".into(), ..Default::default() };
-/// assert!(still.positions.is_empty());
-/// ```
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Track {
-    /// The boundary.
-    pub name: String,
-    /// The point about which it turns, in m, where it is in the mesh.
-    pub pivot: Point,
-    /// Times, in s.
-    pub times: Vec<f64>,
-    /// Displacement of the pivot in x and y, in m, and the angle, in rad.
-    pub positions: Vec<[f64; 3]>,
-}
-
-impl Track {
-    /// Displacement and angle at `time`, linear between the times and held outside of them; `None` where
-    /// nothing is known.
-    pub(super) fn at(&self, time: f64) -> Option<[f64; 3]> {
-        let after = self.times.partition_point(|t| *t < time).min(self.times.len().checked_sub(1)?);
-        let (before, to) = (after.saturating_sub(1), *self.positions.get(after)?);
-        let (from, [a, b]) = (self.positions[before], [self.times[before], self.times[after]]);
-        let s = ((time - a) / (b - a)).clamp(0.0, 1.0);
-        Some(if s.is_nan() { to } else { [0, 1, 2].map(|k| from[k] + s * (to[k] - from[k])) })
-    }
-}
-
 /// The numbers that the summary has for a boundary; coefficients where the case has a reference.
 ///
 /// ```
@@ -137,6 +108,8 @@ pub struct BoundaryLoads {
     pub drag: Vec<f64>,
     /// Lift over the times: the coefficient, or the force in y, in N/m.
     pub lift: Vec<f64>,
+    /// Moment over the times, in N.
+    pub moment: Vec<f64>,
     /// Frequencies in Hz and the amplitudes of the lift over the periods.
     pub spectrum: Option<(Vec<f64>, Vec<f64>)>,
 }
@@ -219,6 +192,9 @@ pub struct FlowWork {
 ///     modes: None,
 ///     times: vec![],
 ///     coefficients: vec![],
+///     thinned: None,
+///     divergence: vec![],
+///     snapshot_divergence: None,
 /// };
 /// assert!(none.modes.is_none());
 /// ```
@@ -240,6 +216,52 @@ pub struct FlowModes {
     pub times: Vec<f64>,
     /// `a_n(t)`, in m²/s.
     pub coefficients: Vec<Vec<f64>>,
+    /// What becomes of it with fewer snapshots.
+    pub thinned: Option<ThinnedModes>,
+    /// Norm of the divergence of each mode over that of its gradient, where it has one.
+    pub divergence: Vec<Option<f64>>,
+    /// The same of the snapshots.
+    pub snapshot_divergence: Option<f64>,
+}
+
+/// The decomposition of every so many snapshots.
+///
+/// ```
+/// assert_eq!(lumley::report::ThinnedModes::default().snapshots, 0);
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(default)]
+pub struct ThinnedModes {
+    /// One of so many snapshots is taken.
+    pub every: usize,
+    /// Snapshots taken.
+    pub snapshots: usize,
+    /// λ, largest first, in m⁴/s².
+    pub eigenvalues: Vec<f64>,
+    /// Share of the energy in the first modes, in %.
+    pub cumulative_percent: Vec<f64>,
+    /// Res(N) of the projection in %, N = 1, 2, ...
+    pub res_percent: Vec<f64>,
+}
+
+/// A way to bring a snapshot to the fixed grid.
+///
+/// ```
+/// let nearest = lumley::report::TransferNumbers { name: "nearest node".into(), ..Default::default() };
+/// assert_eq!(nearest.milliseconds, None);
+/// ```
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TransferNumbers {
+    /// What it is called.
+    pub name: String,
+    /// Its error in L2, relative to the velocity.
+    pub l2: Option<f64>,
+    /// Its largest error, relative to the largest velocity.
+    pub largest: Option<f64>,
+    /// Its error at the nodes of the grid, relative to the velocity there.
+    pub nodes: Option<f64>,
+    /// What a snapshot costs, in ms.
+    pub milliseconds: Option<f64>,
 }
 
 /// What a flow looks like.
@@ -251,27 +273,6 @@ pub struct FlowModes {
 pub struct Scene {
     /// The mesh where it was at first.
     pub mesh: Option<PlanarMesh>,
-    /// The bodies that move.
-    pub tracks: Vec<Track>,
     /// The pictures.
     pub film: Option<Film>,
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_track_is_linear_between_its_times() {
-        let times = vec![1.0, 2.0, 4.0];
-        let positions = vec![[0.0; 3], [1.0, 0.0, 0.5], [3.0, 2.0, 0.5]];
-        let track = Track { times, positions, ..Track::default() };
-        assert_eq!(track.at(0.0), Some([0.0; 3]));
-        assert_eq!(track.at(1.5), Some([0.5, 0.0, 0.25]));
-        assert_eq!(track.at(2.0), Some([1.0, 0.0, 0.5]));
-        assert_eq!(track.at(9.0), Some([3.0, 2.0, 0.5]));
-        assert_eq!(Track::default().at(0.0), None);
-        let one = Track { times: vec![1.0], positions: vec![[7.0; 3]], ..Track::default() };
-        assert_eq!(one.at(1.0), Some([7.0; 3]));
-    }
 }

@@ -1,13 +1,18 @@
 //! The report of a flow: one file per section of the page.
 
+mod bodies;
 mod data;
 mod film;
+mod fixed_grid;
 mod history;
 mod known;
 mod loads;
 mod mesh;
 mod modes;
+mod near;
+mod outlines;
 mod pictures;
+mod projection;
 mod read;
 mod rings;
 #[cfg(test)]
@@ -16,9 +21,12 @@ mod settings;
 #[cfg(test)]
 mod tests;
 
+pub use bodies::{
+    BodiesReport, BodyMotion, BodyNumbers, CoordinateMotion, CoordinateNumbers, FinalState,
+};
 pub use data::{
     BoundaryLoads, FlowModes, FlowReference, FlowSettings, FlowWork, History, LoadNumbers,
-    ProbeSeries, Scene, Track,
+    ProbeSeries, Scene, ThinnedModes, TransferNumbers,
 };
 pub use film::{Film, View};
 
@@ -42,6 +50,8 @@ pub struct FlowReport {
     pub settings: FlowSettings,
     /// What the flow looks like.
     pub scene: Scene,
+    /// The bodies and how they moved.
+    pub bodies: BodiesReport,
     /// Times of the loads, in s.
     pub load_times: Vec<f64>,
     /// The loads on the boundaries.
@@ -54,6 +64,8 @@ pub struct FlowReport {
     pub work: FlowWork,
     /// The decomposition.
     pub modes: Option<FlowModes>,
+    /// The ways to the fixed grid.
+    pub transfer: Vec<TransferNumbers>,
     /// What the reader should know, in sentences.
     pub warnings: Vec<String>,
     /// Where the numbers come from.
@@ -69,6 +81,7 @@ impl FlowReport {
             .iter()
             .fold(pictures::section(self), |section, warning| section.warning(&literal(warning)));
         let page = known::section(self).into_iter().fold(page.section(glance), Page::section);
+        let page = bodies::section(self).into_iter().fold(page, Page::section);
         let page = page.section(loads::section(self));
         let page = history::probes(self).into_iter().fold(page, Page::section);
         let page = page.section(settings::section(self)).section(mesh::section(self));
@@ -89,7 +102,9 @@ impl FlowReport {
 
     /// The key numbers and what they are.
     fn facts(&self) -> Vec<(String, String)> {
-        let mut facts = self.known_facts().unwrap_or_else(|| self.body_facts());
+        let mut facts = self
+            .known_facts()
+            .unwrap_or_else(|| bodies::facts(self).into_iter().chain(self.load_facts()).collect());
         if self.work.unknowns > 0 {
             facts.push((count(self.work.unknowns), "unknowns".into()));
         }
@@ -116,8 +131,8 @@ impl FlowReport {
         Some(all.into_iter().map(fact).collect())
     }
 
-    /// The numbers of the first body.
-    fn body_facts(&self) -> Vec<(String, String)> {
+    /// The loads on the first body.
+    fn load_facts(&self) -> Vec<(String, String)> {
         let Some(body) = self.loads.iter().find(|loads| loads.is_body) else { return Vec::new() };
         let n = &body.numbers;
         let all = [

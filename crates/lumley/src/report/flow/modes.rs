@@ -1,9 +1,10 @@
 //! The decomposition of the velocity.
 
-use super::pictures::solids;
-use super::{FlowModes, FlowReport};
+use super::near::Part;
+use super::outlines::swept;
+use super::{FlowModes, FlowReport, fixed_grid, known, projection};
 use crate::report::energy;
-use crate::report::figure::{Axis, Curves, Figure, HeatMap, LineChart, Series};
+use crate::report::figure::{Axis, Figure, HeatMap};
 use crate::report::html::Section;
 use crate::report::pod::draw::{CAPTION, COEFFICIENTS, coefficients, panels};
 use crate::report::pod::{DrawnField, energies};
@@ -18,11 +19,24 @@ const NOISE: f64 = 1e-12;
 /// The sections of the decomposition, where there is one.
 pub(super) fn sections(report: &FlowReport) -> Vec<Section> {
     let Some(pod) = &report.modes else { return Vec::new() };
+    let sections = [
+        Some(eigenvalues(report, pod)),
+        projection::section(report, pod),
+        Some(modes(report, pod)),
+        fixed_grid::section(report, pod),
+    ];
+    sections.into_iter().flatten().collect()
+}
+
+fn eigenvalues(report: &FlowReport, pod: &FlowModes) -> Section {
     // What is smaller is round-off.
     let least = NOISE * pod.eigenvalues.first().copied().unwrap_or(0.0);
     let kept: Vec<f64> = pod.eigenvalues.iter().copied().take_while(|l| *l > least).collect();
-    let shares = energy::shares(&kept, pod.total_energy);
-    let mut sections = vec![energies(&shares, "m^{4}/s^{2}")];
+    let section = energies(&energy::shares(&kept, pod.total_energy), "m^{4}/s^{2}");
+    known::add_paper_table(report, section)
+}
+
+fn modes(report: &FlowReport, pod: &FlowModes) -> Section {
     let mean =
         if pod.centred { "after the mean over time was subtracted" } else { "the mean included" };
     let section = Section::new("Modes").paragraph(&format!(
@@ -33,43 +47,45 @@ pub(super) fn sections(report: &FlowReport) -> Vec<Section> {
         Some(figure) => section.figure(figure),
         None => section.paragraph("There are no modes to show."),
     };
-    let section = match residual(pod) {
-        Some(figure) => section.figure(figure),
-        None => section,
-    };
-    sections.push(if pod.coefficients.is_empty() {
-        section
-    } else {
-        let drawing = coefficients(&pod.times, &pod.coefficients, "m^{2}/s");
-        section.figure(drawing.figure("coefficients", COEFFICIENTS))
-    });
-    sections
+    if pod.coefficients.is_empty() {
+        return section;
+    }
+    let drawing = coefficients(&pod.times, &pod.coefficients, "m^{2}/s");
+    section.figure(drawing.figure("coefficients", COEFFICIENTS))
 }
 
 /// Each mode's two components over the plane, with the bodies and where they went.
 fn pictures(report: &FlowReport, pod: &FlowModes) -> Option<Figure> {
     let modes = pod.modes.as_ref()?;
-    let tracks = tracks(report);
-    // What a body sweeps over is a part of the modes.
-    let seen = |body: Curves| if tracks.is_empty() { body } else { body.hollow() };
-    let bodies = solids(report, pod.times.first().copied().unwrap_or(0.0));
-    let bodies: Vec<Curves> = bodies.into_iter().map(seen).collect();
-    let map = |DrawnField { x, y, values }: &DrawnField| {
+    let time = |time: Option<&f64>| time.copied().unwrap_or(0.0);
+    let (bodies, ways) = swept(report, time(pod.times.first()), time(pod.times.last()));
+    let part = Part::with_all_local(modes.fields.iter().flatten());
+    let map = |field: &DrawnField| {
+        let cut = part.as_ref().map(|part| part.cut(field));
+        let DrawnField { x, y, values } = cut.as_ref().unwrap_or(field);
         let (x, y) = (along(&pod.grid, 0, x), along(&pod.grid, 1, y));
         let map =
             HeatMap::new((Axis::new("*x*", "m"), &x), (Axis::new("*y*", "m"), &y), values.clone())
                 .values("", "m^{−1}");
         let map = bodies.iter().cloned().fold(map, HeatMap::curves);
-        tracks.iter().cloned().fold(map, HeatMap::overlay)
+        ways.iter().cloned().fold(map, HeatMap::overlay)
     };
     let said = |component: usize| if component == 0 { ", *u*" } else { ", *v*" }.to_string();
-    let with_tracks = match tracks.as_slice() {
+    let with_ways = match ways.as_slice() {
         [] => "",
-        _ => " A body stands where it was first; the line is the track of its pivot.",
+        _ => {
+            " A body that moves is dashed where the first snapshot has it and drawn out where the last has it; \
+             between them the way of its centre."
+        }
     };
-    let caption = format!("{CAPTION}{with_tracks}");
+    let with_part = match part {
+        None => "",
+        Some(_) => " The rest of the grid, where they are even or nothing, is left out.",
+    };
+    let caption = format!("{CAPTION}{with_part}{with_ways}");
     let (lower, upper) = pod.grid.bounds();
-    let columns = if upper[1] - lower[1] < 0.3 * (upper[0] - lower[0]) { 1 } else { 2 };
+    let flat = part.is_none() && upper[1] - lower[1] < 0.3 * (upper[0] - lower[0]);
+    let columns = if flat { 1 } else { 2 };
     Some(panels(modes, columns, said, map).figure("modes", &caption))
 }
 
@@ -77,29 +93,6 @@ fn pictures(report: &FlowReport, pod: &FlowModes) -> Option<Figure> {
 fn along(grid: &UniformGrid, d: usize, nodes: &[f64]) -> Vec<f64> {
     let (lower, _) = grid.bounds();
     nodes.iter().map(|node| lower[d] + (node - 1.0) * grid.spacing()[d]).collect()
-}
-
-/// Where the pivots of the bodies went.
-fn tracks(report: &FlowReport) -> Vec<Series> {
-    let track = |track: &super::Track| {
-        let along =
-            |d: usize| track.positions.iter().map(|p| track.pivot[d] + p[d]).collect::<Vec<_>>();
-        Series::line("", &along(0), &along(1))
-    };
-    report.scene.tracks.iter().map(track).collect()
-}
-
-fn residual(pod: &FlowModes) -> Option<Figure> {
-    if pod.residuals.is_empty() {
-        return None;
-    }
-    let n: Vec<f64> = (1..=pod.residuals.len()).map(|n| n as f64).collect();
-    let modes = Axis::new("modes *N*", "").count().range(0.5, n.len() as f64 + 0.5);
-    let caption = "Largest error over time of the projection on the first *N* modes, relative to the largest \
-        velocity, both in L^{2}, (32).";
-    let chart = LineChart::new(modes, Axis::new("Res(*N*)", "%").log())
-        .series(Series::marked("", &n, &pod.residuals).colour(0));
-    Some(chart.draw(240.0).figure("projection", caption))
 }
 
 #[cfg(test)]

@@ -2,10 +2,10 @@
 
 use serde_json::{Value, json};
 
+use super::FlowReport;
 use super::film::{Film, View};
-use super::rings::{Ring, rings};
-use super::{FlowReport, Track};
-use crate::report::figure::{Axis, Curves, Figure, HeatMap, WIDTH};
+use super::outlines;
+use crate::report::figure::{Axis, Figure, HeatMap, WIDTH};
 use crate::report::html::{Section, controls, rounded, script};
 use crate::report::number::short;
 
@@ -56,8 +56,8 @@ impl<'a> ViewMap<'a> {
     }
 
     fn figure(&self, report: &FlowReport, k: usize) -> Figure {
-        let map =
-            solids(report, self.film.times()[k]).into_iter().fold(self.map(k), HeatMap::curves);
+        let bodies = outlines::solids(report, self.film.times()[k]);
+        let map = bodies.into_iter().fold(self.map(k), HeatMap::curves);
         map.draw_equal(WIDTH, HEIGHT).figure(self.view.name(), &self.caption(report, k))
     }
 
@@ -88,29 +88,7 @@ impl<'a> ViewMap<'a> {
     }
 }
 
-/// The bodies where they are at `time`.
-pub(super) fn solids(report: &FlowReport, time: f64) -> Vec<Curves> {
-    let Some(mesh) = &report.scene.mesh else { return Vec::new() };
-    let bodies = rings(mesh).into_iter().filter(Ring::is_body);
-    bodies
-        .map(|ring| {
-            let track = track_of(report, &ring.boundaries);
-            let solid = Curves::solid(ring.edges);
-            match track.and_then(|track| Some((track.pivot, track.at(time)?))) {
-                Some((pivot, [x, y, angle])) => solid.moved(pivot, [x, y], angle),
-                None => solid,
-            }
-        })
-        .collect()
-}
-
-/// The track of the body with these boundaries, if it moves.
-fn track_of<'a>(report: &'a FlowReport, boundaries: &[usize]) -> Option<&'a Track> {
-    let all = report.scene.mesh.as_ref()?.topology().boundaries();
-    report.scene.tracks.iter().find(|track| boundaries.iter().any(|&k| all[k].name == track.name))
-}
-
-/// The pictures as PNG in base64, and for every body that moves where its pivot is and its angle.
+/// The pictures as PNG in base64, and where the bodies are.
 fn frames(report: &FlowReport, maps: &[ViewMap]) -> Value {
     let film = maps[0].film;
     let mut times: Vec<usize> = (0..film.times().len()).collect();
@@ -136,7 +114,7 @@ fn frames(report: &FlowReport, maps: &[ViewMap]) -> Value {
             "name": map.view.name(),
             "pictures": pictures,
         })).collect::<Vec<_>>(),
-        "bodies": bodies(report, &seconds),
+        "bodies": outlines::frames(report, &seconds),
     })
 }
 
@@ -147,22 +125,6 @@ fn halve<T>(items: &mut Vec<T>, last: usize) {
         place += 1;
         (last + 1 - place).is_multiple_of(2)
     });
-}
-
-/// For each body `null` where it stays, else x and y of its pivot and its angle in degrees at all times.
-fn bodies(report: &FlowReport, times: &[f64]) -> Vec<Value> {
-    let Some(mesh) = &report.scene.mesh else { return Vec::new() };
-    let of_ring = |ring: Ring| match track_of(report, &ring.boundaries) {
-        None => Value::Null,
-        Some(track) => {
-            let place = |&time: &f64| {
-                let [x, y, angle] = track.at(time).unwrap_or_default();
-                [track.pivot[0] + x, track.pivot[1] + y, angle.to_degrees()].map(rounded)
-            };
-            json!(times.iter().map(place).collect::<Vec<_>>())
-        }
-    };
-    rings(mesh).into_iter().filter(Ring::is_body).map(of_ring).collect()
 }
 
 #[cfg(test)]

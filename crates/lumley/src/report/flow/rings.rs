@@ -14,9 +14,22 @@ pub(super) struct Ring {
 
 impl Ring {
     /// The area it encloses, in m², negative where the fluid is outside: that is a body.
-    fn area(&self) -> f64 {
-        let cross = |a: Point, b: Point| 0.5 * (a[0] * b[1] - a[1] * b[0]);
-        self.edges.iter().map(|&[a, b, middle]| cross(a, middle) + cross(middle, b)).sum()
+    pub(super) fn area(&self) -> f64 {
+        self.triangles().map(|(area, _)| area).sum()
+    }
+
+    /// The centre of that area, in m.
+    pub(super) fn centroid(&self) -> Point {
+        let moment =
+            |d: usize| self.triangles().map(|(area, centre)| area * centre[d]).sum::<f64>();
+        [0, 1].map(|d| moment(d) / self.area())
+    }
+
+    /// Area and centre of the triangles from the origin to the chords of the halves of its edges.
+    fn triangles(&self) -> impl Iterator<Item = (f64, Point)> {
+        let chords = self.edges.iter().flat_map(|&[a, b, middle]| [(a, middle), (middle, b)]);
+        chords
+            .map(|(a, b)| (0.5 * (a[0] * b[1] - a[1] * b[0]), [0, 1].map(|d| (a[d] + b[d]) / 3.0)))
     }
 
     pub(super) fn is_body(&self) -> bool {
@@ -98,6 +111,7 @@ mod tests {
         let disc = rings.iter().find(|ring| ring.is_body()).ok_or("no disc")?;
         let area = std::f64::consts::PI * 0.04;
         assert!((disc.area() / area + 1.0).abs() < 0.01, "{}", disc.area());
+        assert!(disc.centroid().iter().all(|c| (c - 0.5).abs() < 1e-6), "{:?}", disc.centroid());
         let (lower, upper) = disc.bounds();
         assert!((lower[0] - 0.3).abs() < 1e-3 && (upper[1] - 0.7).abs() < 1e-3);
         Ok(())

@@ -3,7 +3,6 @@
 use crate::Error;
 use crate::report::{FlowReference, FlowSettings};
 use lumley_body::RigidBody;
-use lumley_body::joint::{Drive, Joint};
 use lumley_fem::Point;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -19,7 +18,11 @@ pub(super) struct CaseView {
     #[serde(default)]
     steady: Option<toml::Table>,
     #[serde(default)]
-    bodies: Vec<RigidBody>,
+    pub bodies: Vec<RigidBody>,
+    #[serde(default)]
+    pub motion: Motion,
+    #[serde(default)]
+    output: Output,
 }
 
 #[derive(Debug, Deserialize)]
@@ -41,6 +44,27 @@ struct Reference {
     density: Option<f64>,
 }
 
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+pub(super) struct Motion {
+    pub gravity: Point,
+    #[serde(flatten)]
+    others: toml::Table,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Output {
+    probes: Instants,
+}
+
+/// What is asked for of the bodies at given instants.
+#[derive(Debug, Default, Deserialize)]
+#[serde(default)]
+struct Instants {
+    coordinates: BTreeMap<String, String>,
+}
+
 /// Keys of `[flow]` that stand in the table of the case.
 const CHOICES: [(&str, &str); 4] = [
     ("initial", "flow at the start"),
@@ -58,10 +82,10 @@ const UNITS: [(&str, &str); 11] = [
     ("ramp", " s"),
     ("peak", " m/s"),
     ("velocity", " m/s"),
-    ("pivot", " m"),
     ("x", " m"),
     ("y", " m"),
     ("angle", " rad"),
+    ("rigid_zone", " m"),
 ];
 
 impl CaseView {
@@ -70,9 +94,9 @@ impl CaseView {
             .map_err(|e| Error::Damaged { path: path.to_owned(), message: e.to_string() })
     }
 
-    /// The boundaries of bodies and their pivots, in m.
-    pub(super) fn moving(&self) -> impl Iterator<Item = (&str, Point)> {
-        self.bodies.iter().filter_map(|body| Some((body.boundary.as_deref()?, pivot(body))))
+    /// What is asked for at given instants: the name and the label of each coordinate.
+    pub(super) fn instants(&self) -> &BTreeMap<String, String> {
+        &self.output.probes.coordinates
     }
 
     pub(super) fn settings(&self) -> FlowSettings {
@@ -83,9 +107,13 @@ impl CaseView {
         let stepping = stepping
             .into_iter()
             .filter_map(|(name, table)| Some((name.to_string(), pairs(table.as_ref()?))));
-        let moving = self.bodies.iter().filter_map(|body| {
-            Some((format!("motion of {}", body.name), prescribed(&body.joint)?))
-        });
+        let [gx, gy] = self.motion.gravity;
+        let motion = [
+            ("gravity", format!("({gx}, {gy}) m/s²"), [gx, gy] != [0.0; 2]),
+            ("motion of the mesh", pairs(&self.motion.others), !self.motion.others.is_empty()),
+        ];
+        let motion = motion.into_iter().filter(|(.., said)| *said);
+        let motion = motion.map(|(name, words, _)| (name.to_string(), words));
         FlowSettings {
             title: self.title.clone(),
             density: flow.density,
@@ -100,32 +128,10 @@ impl CaseView {
                 .iter()
                 .map(|(name, b)| (name.clone(), condition(b)))
                 .collect(),
-            choices: CHOICES.into_iter().filter_map(chosen).chain(stepping).chain(moving).collect(),
+            choices: CHOICES.into_iter().filter_map(chosen).chain(stepping).chain(motion).collect(),
             steady: self.steady.is_some(),
         }
     }
-}
-
-/// The point that the joint of a body holds, in m.
-fn pivot(body: &RigidBody) -> Point {
-    match &body.joint {
-        Joint::Prescribed(joint) => joint.at.unwrap_or(body.centre),
-        Joint::Revolute(joint) => joint.at,
-        _ => body.centre,
-    }
-}
-
-/// What prescribes a motion, in words.
-fn prescribed(joint: &Joint) -> Option<String> {
-    let Joint::Prescribed(joint) = joint else { return None };
-    let drives = [("x", &joint.x, "m"), ("y", &joint.y, "m"), ("angle", &joint.angle, "rad")];
-    let said = drives.into_iter().filter_map(|(name, drive, unit)| match drive {
-        Drive::Constant(0.0) | Drive::Function(_) => None,
-        Drive::Constant(value) => Some(format!("{name} {value} {unit}")),
-        Drive::Formula(formula) => Some(format!("{name} {formula} {unit}")),
-        Drive::Table(_) => Some(format!("{name} by a table")),
-    });
-    Some(said.collect::<Vec<_>>().join(", "))
 }
 
 /// `no-slip`, or `velocity: profile parabolic, peak 1.5`.
@@ -192,11 +198,18 @@ length = 0.1
 [time]
 end = 8.0
 scheme = "bdf2"
+[motion]
+gravity = [0, -9.81]
+rigid_zone = 0.3
 [[bodies]]
-name = "cylinder"
+name = "rotor"
 centre = [0.2, 0.2]
 boundary = "cylinder"
 joint = { kind = "prescribed", y = "0.02*sin(2*pi*t)" }
+[output.probes]
+times = [1.0, 2.0]
+body = "rotor"
+coordinates = { lift = "rotor.y" }
 [elsewhere]
 anything = 1
 "#;
@@ -217,10 +230,12 @@ anything = 1
                 pair("flow at the start", "velocity (1, 0) m/s"),
                 pair("viscous term", "laplacian"),
                 pair("time", "end 8 s, scheme bdf2"),
-                pair("motion of cylinder", "y 0.02*sin(2*pi*t) m"),
+                pair("gravity", "(0, -9.81) m/s²"),
+                pair("motion of the mesh", "rigid zone 0.3 m"),
             ]
         );
-        assert_eq!(case.moving().collect::<Vec<_>>(), [("cylinder", [0.2, 0.2])]);
+        assert_eq!(case.bodies[0].boundary.as_deref(), Some("cylinder"));
+        assert_eq!(case.instants()["lift"], "rotor.y");
         assert!((settings.reynolds().expect("a reference") - 100.0).abs() < 1e-9);
         assert!(CaseView::parse("case.toml".as_ref(), "[piston]").is_err());
     }

@@ -4,15 +4,17 @@
 //! |---|---|
 //! | `manifest.json` | provenance |
 //! | `summary.json` | every number |
-//! | `case.toml` | the fluid, its boundaries, the pivots of the bodies |
+//! | `case.toml` | the fluid, its boundaries, the bodies |
 //! | `mesh.npz` | the mesh where it was at first |
 //! | `loads.csv`, `probes.csv`, `steps.csv` | curves over time |
-//! | `pictures` | the frame `picture`, where the bodies were |
+//! | `bodies.csv` | the motion of the bodies |
+//! | `pictures` | the frame `picture` |
 //! | `record` | the grid of the modes |
 //! | `basis/fixed.npz` | the modes |
 //!
 //! All but the first three may be missing, and what they show is then left out.
 
+mod bodies;
 mod case;
 mod mesh;
 mod numbers;
@@ -45,13 +47,16 @@ impl FlowReport {
         let case = CaseView::parse(&folder.join("case.toml"), &text)?;
         let mesh = mesh::read(&folder.join("mesh.npz"))?;
         let settings = case.settings();
-        let recorded = record::Recorded::read(folder, &case)?;
+        let recorded = record::Recorded::read(folder)?;
+        let bodies = bodies::read(folder, &case, &numbers)?;
         let (load_times, loads) = loads(folder, &numbers, &settings, mesh.as_ref())?;
         let history = History { residuals: numbers.residuals(), ..tables::history(folder)? };
         Ok(Self {
             name: manifest.case.clone(),
             modes: record::modes(folder, &recorded, &numbers)?,
             scene: recorded.scene(mesh),
+            bodies,
+            transfer: numbers.transfer(),
             settings,
             load_times,
             loads,
@@ -76,7 +81,8 @@ fn loads(
     settings: &FlowSettings,
     mesh: Option<&PlanarMesh>,
 ) -> Result<(Vec<f64>, Vec<BoundaryLoads>), Error> {
-    let components = if settings.reference.is_some() { ["cd", "cl"] } else { ["fx", "fy"] };
+    let [drag, lift] = if settings.reference.is_some() { ["cd", "cl"] } else { ["fx", "fy"] };
+    let components = [drag, lift, "moment"];
     let table =
         Table::read(&folder.join("loads.csv"), |_, quantity| components.contains(&quantity))?;
     let rings = mesh.map(rings).unwrap_or_default();
@@ -86,11 +92,11 @@ fn loads(
     let of = |name: &str| {
         let place = order.iter().position(|n| *n == name);
         let is_body = place.is_some_and(|k| is_of_bodies(&rings, k));
-        let [drag, lift] = components.map(|quantity| table.column(name, quantity));
+        let [drag, lift, moment] = components.map(|quantity| table.column(name, quantity));
         let numbers = numbers.of_loads(name);
         let spectrum = numbers.window.filter(|_| is_body && numbers.periods > 0);
         let spectrum = spectrum.and_then(|window| spectrum_of(&table.times, &lift, window));
-        BoundaryLoads { name: name.into(), is_body, numbers, drag, lift, spectrum }
+        BoundaryLoads { name: name.into(), is_body, numbers, drag, lift, moment, spectrum }
     };
     let mut loads: Vec<BoundaryLoads> = numbers.boundaries().map(of).collect();
     let place = |loads: &BoundaryLoads| order.iter().position(|name| *name == loads.name);

@@ -1,34 +1,29 @@
 //! The pictures and the basis of a run, as far as a report shows them.
 
-use super::case::CaseView;
 use super::numbers::Numbers;
 use crate::Error;
 use crate::format::npz::NpzReader;
 use crate::record::{FrameReader, Record, Support};
 use crate::report::flow::modes::SHOWN;
-use crate::report::{DrawnModes, FieldGrid, Film, FlowModes, Scene, Track};
+use crate::report::{DrawnModes, FieldGrid, Film, FlowModes, Scene};
 use faer::Mat;
-use lumley_fem::{PlanarMesh, Point, UniformGrid};
+use lumley_fem::{PlanarMesh, UniformGrid};
 use std::path::Path;
 
 /// The frame of pictures and that of the decomposition, and how many components they have.
 const PICTURE: (&str, usize) = ("picture", 4);
 const FIXED: (&str, usize) = ("fixed", 2);
 
-/// Before the names of bodies in the series of where they were.
-const POSITION: &str = "position-";
-
-/// The pictures, where the bodies were, and the grid of the modes.
+/// The pictures and the grid of the modes.
 #[derive(Debug, Default)]
 pub(super) struct Recorded {
-    tracks: Vec<Track>,
     film: Option<Film>,
     grid: Option<UniformGrid>,
 }
 
 impl Recorded {
     /// What the pictures of the run in `folder` have; nothing where there are none.
-    pub(super) fn read(run: &Path, case: &CaseView) -> Result<Self, Error> {
+    pub(super) fn read(run: &Path) -> Result<Self, Error> {
         let folder = run.join("pictures");
         if !folder.exists() {
             return Ok(Self::default());
@@ -40,29 +35,13 @@ impl Recorded {
             Some(grid) => Some(film(&record, &grid)?),
             None => None,
         };
-        // Names of series are shorter than those of bodies; both have one order.
-        let series = record.description().series.iter().map(|series| series.name.as_str());
-        let series = series.filter(|name| name.starts_with(POSITION)).zip(case.moving());
-        let tracks = series.map(|(series, body)| track(&record, series, body));
-        Ok(Self { tracks: tracks.collect::<Result<_, _>>()?, film, grid: fixed })
+        Ok(Self { film, grid: fixed })
     }
 
     /// The scene with the mesh, if there is one.
     pub(super) fn scene(self, mesh: Option<PlanarMesh>) -> Scene {
-        Scene { mesh, tracks: self.tracks, film: self.film }
+        Scene { mesh, film: self.film }
     }
-}
-
-/// Where a body was.
-fn track(record: &Record, series: &str, (name, pivot): (&str, Point)) -> Result<Track, Error> {
-    let series = record.series(series)?;
-    let place = |k: usize| [0, 1, 2].map(|d| series.at(k).get(d).copied().unwrap_or(0.0));
-    Ok(Track {
-        name: name.to_owned(),
-        pivot,
-        times: record.times().to_vec(),
-        positions: (0..record.len()).map(place).collect(),
-    })
 }
 
 /// The grid of a frame, if there is such a frame on a grid of the plane.
@@ -113,5 +92,8 @@ pub(super) fn modes(
         modes: drawn.transpose()?,
         times: npz.vector("times")?,
         coefficients: coefficients.row_iter().map(|row| row.iter().copied().collect()).collect(),
+        thinned: numbers.pod_every.clone(),
+        divergence: numbers.pod.divergence.clone(),
+        snapshot_divergence: numbers.pod.snapshot_divergence,
     }))
 }

@@ -1,8 +1,14 @@
 //! Reference values of cases that are known.
 
-use super::{FlowReport, LoadNumbers, ProbeSeries};
+mod pendulum;
+
+pub(super) use pendulum::{EVERY, Mode, add_paper_table, instants, modes};
+
+use super::bodies::springs;
+use super::{BodyMotion, FlowReport, LoadNumbers, ProbeSeries};
 use crate::report::html::{Section, Table};
 use crate::report::number::{exact, fixed, significant};
+use lumley_body::joint::Spring;
 
 /// What is known of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,8 +36,16 @@ struct Known {
     viscosity: f64,
     /// A boundary, and words that stand in what holds there.
     driven: [&'static str; 2],
+    bodies: &'static [KnownBody],
     quantities: &'static [Quantity],
     source: &'static str,
+}
+
+/// A body of such a case: its name, mass in kg/m, and the stiffness and the damping of all of its springs.
+struct KnownBody {
+    name: &'static str,
+    mass: f64,
+    springs: [f64; 2],
 }
 
 const SCHAEFER_TUREK: &str = "M. Schäfer and S. Turek, Benchmark computations of laminar flow around a \
@@ -41,11 +55,16 @@ const SCHAEFER_TUREK: &str = "M. Schäfer and S. Turek, Benchmark computations o
 const BOTELLA_PEYRET: &str = "O. Botella and R. Peyret, Benchmark spectral results on the lid-driven cavity \
     flow, Computers & Fluids 27 (1998) 421–433";
 
-const KNOWN: [Known; 3] = [
+const SHIELS: &str = "D. Shiels, A. Leonard and A. Roshko, Flow-induced vibration of a circular cylinder at \
+    limiting structural parameters, Journal of Fluids and Structures 15 (2001) 3–21; the ranges hold its values \
+    and those of independent computations";
+
+const KNOWN: [Known; 6] = [
     Known {
         name: "cavity",
         viscosity: 1e-3,
         driven: ["top", "velocity (1, 0)"],
+        bodies: &[],
         quantities: &[
             ("smallest *u*", |r| last(r, "u-min", |p| &p.u), Reference::Value(-0.388_569_8)),
             ("largest *v*", |r| last(r, "v-max", |p| &p.v), Reference::Value(0.376_944_7)),
@@ -57,6 +76,7 @@ const KNOWN: [Known; 3] = [
         name: "cylinder-2d1",
         viscosity: 1e-3,
         driven: ["left", "peak 0.3 m/s"],
+        bodies: &[],
         quantities: &[
             ("*C*_{D}", |r| cylinder(r)?.drag_mean, Reference::Value(5.57954)),
             ("*C*_{L}", |r| cylinder(r)?.lift_max, Reference::Value(0.010_619)),
@@ -68,6 +88,7 @@ const KNOWN: [Known; 3] = [
         name: "cylinder-2d2",
         viscosity: 1e-3,
         driven: ["left", "peak 1.5 m/s"],
+        bodies: &[],
         quantities: &[
             ("largest *C*_{D}", |r| periodic(r)?.drag_max, Reference::Value(3.2277)),
             ("largest *C*_{L}", |r| periodic(r)?.lift_max, Reference::Value(0.9869)),
@@ -75,6 +96,33 @@ const KNOWN: [Known; 3] = [
         ],
         source: SCHAEFER_TUREK,
     },
+    Known {
+        name: "viv",
+        viscosity: 1e-2,
+        driven: ["left", "velocity (1, 0)"],
+        bodies: &[KnownBody { name: "cylinder", mass: 2.5, springs: [2.37, 0.0] }],
+        quantities: &[
+            ("amplitude (m)", |r| swinging(r)?.numbers.amplitude, Reference::Between(0.435, 0.475)),
+            (
+                "frequency (Hz)",
+                |r| swinging(r)?.numbers.frequency,
+                Reference::Between(0.152, 0.158),
+            ),
+        ],
+        source: SHIELS,
+    },
+    Known {
+        name: "massless-cylinder",
+        viscosity: 1e-2,
+        driven: ["left", "velocity (1, 0)"],
+        bodies: &[KnownBody { name: "cylinder", mass: 0.0, springs: [0.0; 2] }],
+        quantities: &[
+            ("amplitude (m)", |r| swinging(r)?.numbers.amplitude, Reference::Value(0.437)),
+            ("frequency (Hz)", |r| swinging(r)?.numbers.frequency, Reference::Value(0.153)),
+        ],
+        source: "an independent computation of the same case",
+    },
+    pendulum::KNOWN,
 ];
 
 /// The numbers of the run that have references, and where these come from; none of a case that was changed.
@@ -120,6 +168,21 @@ impl Known {
         report.name == self.name
             && (viscosity / self.viscosity - 1.0).abs() < 1e-9
             && settings.boundaries.iter().any(driven)
+            && self.bodies.len() == report.bodies.bodies.len()
+            && self.bodies.iter().all(|body| body.is_in(report))
+    }
+}
+
+impl KnownBody {
+    fn is_in(&self, report: &FlowReport) -> bool {
+        let same = |BodyMotion { setup, .. }: &BodyMotion| {
+            let springs = springs(&setup.joint);
+            let all = |[stiffness, damping]: [f64; 2], (_, spring): &(&str, Spring)| {
+                [stiffness + spring.stiffness, damping + spring.damping]
+            };
+            setup.mass == Some(self.mass) && springs.iter().fold([0.0; 2], all) == self.springs
+        };
+        report.bodies.named(self.name).is_some_and(same)
     }
 }
 
@@ -130,6 +193,11 @@ fn cylinder(report: &FlowReport) -> Option<&LoadNumbers> {
 /// The cylinder's numbers once the vortex street is there.
 fn periodic(report: &FlowReport) -> Option<&LoadNumbers> {
     cylinder(report).filter(|numbers| numbers.strouhal.is_some())
+}
+
+/// The cylinder on its spring once it swings.
+fn swinging(report: &FlowReport) -> Option<&BodyMotion> {
+    report.bodies.named("cylinder").filter(|body| body.numbers.periods > 0)
 }
 
 /// The last value of a probe.

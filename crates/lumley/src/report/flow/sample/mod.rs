@@ -1,26 +1,26 @@
 //! The directory of a run, made from formulas, for tests.
 
+mod bodies;
+
 use crate::format::csv::write_columns;
 use crate::format::npz::NpzWriter;
 use crate::manifest::{MANIFEST, Manifest, Stage};
-use crate::record::{
-    Description, FrameDescription, Quantity, RecordWriter, SeriesDescription, Snapshot, Support,
-};
+use crate::record::{Description, FrameDescription, Quantity, RecordWriter, Snapshot, Support};
 use crate::run::BasisFile;
 use crate::summary::SUMMARY;
+use bodies::{BODIES, lift, numbers_of_bodies, write_bodies};
 use faer::Mat;
 use lumley_fem::generate::Channel;
 use lumley_fem::{MeshDescription, Point, UniformGrid};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::f64::consts::TAU;
 use std::fs;
 use std::path::Path;
 
 pub(super) type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// Frequency of the street, in Hz, and amplitude of the cylinder's motion, in m.
+/// Frequency of the street, in Hz.
 const FREQUENCY: f64 = 3.0;
-const AMPLITUDE: f64 = 0.02;
 
 /// Which run is to be made.
 #[derive(Debug, Clone, Copy)]
@@ -58,8 +58,6 @@ end = 3.0
 step = 0.005
 "#;
 
-const MOTION: &str = "[[bodies]]\nname = \"cylinder\"\ncentre = [0.2, 0.2]\nboundary = \"cylinder\"\njoint = { kind = \"prescribed\", y = \"0.02*sin(6*pi*t)\" }\n";
-
 impl Sample {
     /// Makes the directory.
     pub(super) fn write(&self, folder: &Path) -> Outcome {
@@ -67,9 +65,12 @@ impl Sample {
         manifest.stages = vec![Stage { name: "full-order model".into(), seconds: 12.5 }];
         manifest.complete = true;
         fs::write(folder.join(MANIFEST), manifest.to_json())?;
-        let motion = if self.moves { MOTION } else { "" };
-        fs::write(folder.join("case.toml"), format!("{CASE}{motion}"))?;
-        fs::write(folder.join(SUMMARY), summary().to_string())?;
+        let bodies = if self.moves { BODIES } else { "" };
+        fs::write(folder.join("case.toml"), format!("{CASE}{bodies}"))?;
+        fs::write(folder.join(SUMMARY), self.summary().to_string())?;
+        if self.moves {
+            write_bodies(&folder.join("bodies.csv"))?;
+        }
         write_mesh(&folder.join("mesh.npz"), &mesh()?)?;
         write_tables(folder)?;
         self.write_records(folder)?;
@@ -77,7 +78,16 @@ impl Sample {
     }
 
     fn displacement(&self, time: f64) -> f64 {
-        if self.moves { AMPLITUDE * (TAU * FREQUENCY * time).sin() } else { 0.0 }
+        if self.moves { lift(time) } else { 0.0 }
+    }
+
+    /// The summary, with what there is of bodies where they move.
+    fn summary(&self) -> Value {
+        let mut summary = summary();
+        if self.moves {
+            summary.as_object_mut().expect("an object").extend(numbers_of_bodies());
+        }
+        summary
     }
 
     /// The snapshots on the fixed grid, and the pictures.
@@ -89,10 +99,6 @@ impl Sample {
                 support: Support::Grid(grid(nodes)),
                 length_unit: "m".into(),
                 components: quantities(components),
-            }],
-            series: vec![SeriesDescription {
-                name: "position-cylinder".into(),
-                entries: quantities(&["x", "y", "angle"]),
             }],
             ..Description::default()
         };
@@ -107,7 +113,7 @@ impl Sample {
                 let time = 3.0 * k as f64 / (self.snapshots.max(2) - 1) as f64;
                 let y = self.displacement(time);
                 let field = field(&grid(nodes), time, y, components);
-                writer.append(&Snapshot { time, series: &[&[0.0, y, 0.0]], fields: &[&field] })?;
+                writer.append(&Snapshot { time, series: &[], fields: &[&field] })?;
             }
             writer.finish()?;
         }
@@ -122,7 +128,7 @@ fn grid(nodes: [usize; 2]) -> UniformGrid {
 /// Nodes of the fixed grid.
 const FIXED: [usize; 2] = [45, 9];
 
-pub(super) fn summary() -> serde_json::Value {
+pub(super) fn summary() -> Value {
     let still = json!({ "drag_coefficient_max": null, "force_mean": [0.031, 0.0] });
     json!({
         "case": "cylinder-2d2",
@@ -185,6 +191,7 @@ fn write_tables(folder: &Path) -> Outcome {
         ("bottom.fy", &zero),
         ("cylinder.fx", &drag),
         ("cylinder.fy", &lift),
+        ("cylinder.moment", &lift),
         ("cylinder.cd", &drag),
         ("cylinder.cl", &lift),
     ];
