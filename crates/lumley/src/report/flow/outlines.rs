@@ -125,7 +125,7 @@ fn way(report: &FlowReport, body: &BodyMotion, start: f64, end: f64) -> Series {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::BodiesReport;
+    use crate::report::{BodiesReport, BodyNumbers};
 
     const PENDULUM: &str = "
         [[bodies]]
@@ -163,7 +163,7 @@ mod tests {
             setup,
             track: vec![],
             coordinates: vec![],
-            numbers: Default::default(),
+            numbers: BodyNumbers::default(),
         };
         let bodies: Vec<BodyMotion> = case.bodies.into_iter().map(of).collect();
         let report = FlowReport {

@@ -120,9 +120,9 @@ pub(in crate::report::flow) fn add_paper_table(report: &FlowReport, section: Sec
         .paragraph(
             "The paper’s Table 1, an independent computation with 7080 biquadratic cells as the reference, and this \
              run, all with 111 snapshots. The paper leaves part of its parameters unstated; they are chosen so that \
-             its table comes out, to a few percent in the small eigenvalues. The reference integrates by the trapezoid \
+             its table comes out, to a few percent in the small eigenvalues. Both integrate over the grid by the trapezoid \
              rule; in the inner product of bilinear functions, which takes less of what jumps at the rim of the disc, \
-             the second to fifth eigenvalues are 3 to 20 % smaller.",
+             the second to fifth eigenvalues would be 3 to 20 % smaller.",
         )
         .table(&Table::new(&head).rows(PAPER.iter().enumerate().map(row)))
 }
