@@ -17,7 +17,7 @@ pub(super) const BENCHMARKS: &[Benchmark] = &[
     Benchmark {
         name: "viv dt/2",
         case: "viv",
-        settings: &[BRIEF, "time.step=0.025", "time.end=130", "record.start=130"],
+        settings: &[BRIEF, "time.step=0.025", "time.end=130", "record.start=110"],
         coarse: false,
         full: true,
         expected: Expected::Numbers(on_a_spring),
@@ -33,7 +33,7 @@ pub(super) const BENCHMARKS: &[Benchmark] = &[
             FINE[3],
             FINE[4],
             "time.end=130",
-            "record.start=130",
+            "record.start=110",
         ],
         coarse: false,
         full: true,
