@@ -15,8 +15,8 @@ use crate::linear::{
 };
 use crate::motion::Motion;
 use faer::Par;
-use lumley_fem::PlanarMesh;
 use lumley_fem::space::NodalSpace;
+use lumley_fem::{PlanarMesh, Point};
 use std::sync::Arc;
 
 /// Iterations that a factorisation costs.
@@ -88,26 +88,11 @@ impl Flow {
         let FlowSetup { mut mesh, parameters, conditions, start, motion, parallel } = setup;
         parameters.check()?;
         let conditions = by_boundary(&mesh, conditions)?;
-        let (mut motion, mut bodies) = match motion {
-            FlowMotion::Still => (None, None),
-            FlowMotion::Given(motion) => (Some(motion), None),
-            FlowMotion::Bodies(setup) => {
-                (None, Some(BodyMotion::new(setup, &mesh, parameters.density)?))
-            }
-        };
+        let (mut motion, mut bodies) = movers(motion, &mesh, parameters.density)?;
         let moving = moving(&mesh, &conditions, motion.as_deref(), bodies.as_ref())?;
         let space = NodalSpace::velocity(mesh.topology());
         let rigid = RigidBodies::new(bodies.as_ref(), &mesh, &space);
-        let mut nodes = [Vec::new(), Vec::new()];
-        if let Some(motion) = &mut motion {
-            motion.carry(0.0, &mut mesh)?;
-        }
-        if let Some(bodies) = &mut bodies {
-            bodies.carry(0.0, &mut mesh)?;
-        }
-        if motion.is_some() || bodies.is_some() {
-            nodes = [mesh.nodes().to_vec(), mesh.nodes().to_vec()];
-        }
+        let nodes = put_at_start((&mut motion, &mut bodies), &mut mesh)?;
         let slides = Slides::new(&mesh, &space, &conditions);
         let unknowns = Unknowns::new(&mesh, &space, &conditions, &slides, &rigid)?;
         check_parts(&mesh, &conditions, &unknowns)?;
@@ -181,6 +166,30 @@ impl Flow {
         before.copy_from_slice(now);
         Ok(())
     }
+}
+
+/// What moves the mesh: nothing, a motion, or bodies.
+type Movers = (Option<Box<dyn Motion>>, Option<BodyMotion>);
+
+fn movers(motion: FlowMotion, mesh: &PlanarMesh, density: f64) -> Result<Movers, FlowError> {
+    Ok(match motion {
+        FlowMotion::Still => (None, None),
+        FlowMotion::Given(motion) => (Some(motion), None),
+        FlowMotion::Bodies(setup) => (None, Some(BodyMotion::new(setup, mesh, density)?)),
+    })
+}
+
+/// Moves the mesh to where it starts; where its nodes are now and were a step before, if it moves.
+fn put_at_start(
+    movers: (&mut Option<Box<dyn Motion>>, &mut Option<BodyMotion>),
+    mesh: &mut PlanarMesh,
+) -> Result<[Vec<Point>; 2], FlowError> {
+    match movers {
+        (None, None) => return Ok([Vec::new(), Vec::new()]),
+        (Some(motion), _) => motion.carry(0.0, mesh)?,
+        (None, Some(bodies)) => bodies.carry(0.0, mesh)?,
+    }
+    Ok([mesh.nodes().to_vec(), mesh.nodes().to_vec()])
 }
 
 /// The conditions in the order of the mesh's boundaries.

@@ -42,7 +42,12 @@ use watch::Passes;
 ///     times: None,
 ///     grid: None,
 ///     components: 1,
-///     choice: PodChoice { method: "auto".into(), truncation: Truncation::Modes(6), center: false },
+///     choice: PodChoice {
+///         method: "auto".into(),
+///         truncation: Truncation::Modes(6),
+///         center: false,
+///         every: None,
+///     },
 ///     memory: None,
 ///     skip_non_finite: false,
 ///     update: None,
