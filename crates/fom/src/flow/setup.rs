@@ -92,7 +92,7 @@ impl Flow {
         let moving = moving(&mesh, &conditions, motion.as_deref(), bodies.as_ref())?;
         let space = NodalSpace::velocity(mesh.topology());
         let rigid = RigidBodies::new(bodies.as_ref(), &mesh, &space);
-        let nodes = put_at_start((&mut motion, &mut bodies), &mut mesh)?;
+        let nodes = put_at_start(&mut motion, &mut bodies, &mut mesh)?;
         let slides = Slides::new(&mesh, &space, &conditions);
         let unknowns = Unknowns::new(&mesh, &space, &conditions, &slides, &rigid)?;
         check_parts(&mesh, &conditions, &unknowns)?;
@@ -181,10 +181,11 @@ fn movers(motion: FlowMotion, mesh: &PlanarMesh, density: f64) -> Result<Movers,
 
 /// Moves the mesh to where it starts; where its nodes are now and were a step before, if it moves.
 fn put_at_start(
-    movers: (&mut Option<Box<dyn Motion>>, &mut Option<BodyMotion>),
+    motion: &mut Option<Box<dyn Motion>>,
+    bodies: &mut Option<BodyMotion>,
     mesh: &mut PlanarMesh,
 ) -> Result<[Vec<Point>; 2], FlowError> {
-    match movers {
+    match (motion, bodies) {
         (None, None) => return Ok([Vec::new(), Vec::new()]),
         (Some(motion), _) => motion.carry(0.0, mesh)?,
         (None, Some(bodies)) => bodies.carry(0.0, mesh)?,
