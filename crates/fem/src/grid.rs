@@ -82,14 +82,26 @@ impl UniformGrid {
 
     /// Weights of the trapezoid rule at the nodes, in m or m²; their sum is the length or area.
     pub fn trapezoid_weights(&self) -> Vec<f64> {
-        let [line, column] = [0, 1].map(|d| {
+        let [line, column] = self.trapezoid_factors();
+        column.iter().flat_map(|wy| line.iter().map(move |wx| wx * wy)).collect()
+    }
+
+    /// The weights of the trapezoid rule along each direction, the fastest first, in m: those at the nodes are their
+    /// products.
+    ///
+    /// ```
+    /// use lumley_fem::UniformGrid;
+    /// let [line, none] = UniformGrid::line(0.0, 1.0, 3).trapezoid_factors();
+    /// assert_eq!((line, none), (vec![0.25, 0.5, 0.25], vec![1.0]));
+    /// ```
+    pub fn trapezoid_factors(&self) -> [Vec<f64>; 2] {
+        [0, 1].map(|d| {
             let end = |k| if k == 0 || k == self.nodes[d] - 1 { 0.5 } else { 1.0 };
             match self.nodes[d] {
                 1 => vec![1.0],
                 n => (0..n).map(|k| end(k) * self.spacing()[d]).collect(),
             }
-        });
-        column.iter().flat_map(|wy| line.iter().map(move |wx| wx * wy)).collect()
+        })
     }
 
     /// The consistent mass matrix `∫ φ_i φ_j` of linear elements on an interval, bilinear ones on a

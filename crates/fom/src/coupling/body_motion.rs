@@ -106,9 +106,9 @@ impl BodyMotion {
     pub fn propose(&mut self, formula: RateFormula, velocity: &[f64]) -> f64 {
         self.scheme.propose(formula.of_bodies(), velocity);
         let apart = |(wet, placed): (&Wet, &RigidMotion)| {
-            let now = rigid_motion(self.scheme.kinematics().placement(wet.body));
-            let pivot = self.scheme.kinematics().placement(wet.body).pivot;
-            let [p, q] = [&now, placed].map(|motion| motion.place(pivot, wet.centroid));
+            let placement = self.scheme.kinematics().placement(wet.body);
+            let now = rigid_motion(placement);
+            let [p, q] = [&now, placed].map(|motion| motion.place(placement.pivot, wet.centroid));
             let turned = (now.angle - placed.angle).abs();
             (p[0] - q[0]).hypot(p[1] - q[1]) / wet.radius + turned
         };

@@ -24,7 +24,7 @@ use lumley_fem::{PlanarMesh, Point};
 pub(super) struct RigidBodies {
     /// By coordinate: its unknown; none if it is prescribed.
     unknowns: Vec<Option<usize>>,
-    /// Coordinates that move each other: each group is a cell of the system.
+    /// Coordinates that move each other, none of them prescribed: each group is a cell of the system.
     groups: Vec<Group>,
     dofs: Vec<RigidDof>,
     /// What the dofs of a body have in common.
@@ -206,10 +206,9 @@ impl RigidBodies {
         let Some(tangent) = &self.tangent else { return };
         for (cell, group) in (first..).zip(&self.groups) {
             let matrix = &mut matrices[pattern.matrix(cell)];
-            let free = || group.coordinates.iter().filter(|&&k| self.unknowns[k].is_some());
-            let rows = pattern.of(cell).len();
-            for (i, &row) in free().enumerate() {
-                for (j, &column) in free().enumerate() {
+            let rows = group.coordinates.len();
+            for (i, &row) in group.coordinates.iter().enumerate() {
+                for (j, &column) in group.coordinates.iter().enumerate() {
                     let entry = tangent[(row, column)] * self.scales[row];
                     matrix[i + rows * j] = entry * self.scales[column];
                 }

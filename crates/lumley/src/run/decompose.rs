@@ -203,24 +203,16 @@ pub(super) fn whole(frame: &FrameReader) -> Result<Mat<f64>, Error> {
 /// ```
 ///
 /// # Panics
-/// Never: a mass matrix is positive definite, and so are the sums of its rows.
+/// Never: a mass matrix is positive definite, and the weights are positive.
 pub fn grid_product(grid: &UniformGrid, components: usize) -> Kronecker {
-    let direction = |(diagonal, beside): &(Vec<f64>, Vec<f64>)| {
-        let factor = match grid.dimension() {
-            1 => Tridiagonal::new(diagonal, beside),
-            _ => Tridiagonal::new(&row_sums(diagonal, beside), &vec![0.0; beside.len()]),
-        };
-        factor.expect("a mass matrix is positive definite")
+    let factor = |diagonal: &[f64], beside: &[f64]| {
+        Tridiagonal::new(diagonal, beside).expect("a factor is positive definite")
     };
-    Kronecker::new(grid.mass_factors().iter().map(direction).collect(), components)
-}
-
-/// Of a symmetric tridiagonal matrix: of a mass matrix, the weights of the trapezoid rule.
-fn row_sums(diagonal: &[f64], beside: &[f64]) -> Vec<f64> {
-    let mut sums = diagonal.to_vec();
-    for (k, entry) in beside.iter().enumerate() {
-        sums[k] += entry;
-        sums[k + 1] += entry;
-    }
-    sums
+    let factors = match grid.dimension() {
+        1 => grid.mass_factors().map(|(diagonal, beside)| factor(&diagonal, &beside)),
+        _ => {
+            grid.trapezoid_factors().map(|weights| factor(&weights, &vec![0.0; weights.len() - 1]))
+        }
+    };
+    Kronecker::new(factors.into(), components)
 }
